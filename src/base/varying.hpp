@@ -1,0 +1,25 @@
+#pragma once
+/// A quantity that may vary in space and time.
+#include <functional>
+#include <string>
+
+#include "base/vec.hpp"
+
+namespace mudlark {
+
+/// Value in SI units as a function of position (x, y, z) [m] and time [s]. `text` is what the user wrote.
+struct Varying {
+  std::function<double(const Point3&, double)> function;
+  std::string text;
+  bool constant = true;
+
+  Varying() : Varying(0.0) {}
+  explicit Varying(double value)
+      : function([value](const Point3&, double) { return value; }), text(std::to_string(value)) {}
+  Varying(std::function<double(const Point3&, double)> f, std::string written)
+      : function(std::move(f)), text(std::move(written)), constant(false) {}
+
+  double operator()(const Point3& position, double time) const { return function(position, time); }
+};
+
+}  // namespace mudlark

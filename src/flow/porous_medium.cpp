@@ -1,0 +1,17 @@
+#include "flow/porous_medium.hpp"
+
+namespace mudlark {
+
+template <int D>
+PorousMedium<D>::PorousMedium(const Grid<D>& grid)
+    : porosity(grid, "porosity", "1", 1.0),
+      grain_flux(grid, "grain flux", "m/s"),
+      grain_velocity(grid, "grain velocity", "m/s"),
+      linear_drag(grid, "linear drag", "Pa s/m2"),
+      quadratic_drag(grid, "quadratic drag", "Pa s2/m3"),
+      give_way(grid, "give way", "1/(Pa s)") {}
+
+template struct PorousMedium<2>;
+template struct PorousMedium<3>;
+
+}  // namespace mudlark

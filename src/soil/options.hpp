@@ -1,0 +1,74 @@
+#pragma once
+/// What the case file says about the soil, as plain data (SI units).
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "base/varying.hpp"
+#include "base/vec.hpp"
+#include "grid/shape.hpp"
+
+namespace mudlark {
+
+/// How strain is measured against stress. small: Cauchy stress linear in the displacement gradient;
+/// logarithmic: Cauchy stress linear in logarithmic strain; hencky: Kirchhoff stress linear in logarithmic
+/// strain; objective: Hill's rate, as Anura3D with its objective stress switched on.
+enum class StrainMeasure { small, logarithmic, hencky, objective };
+
+struct LinearElasticOptions {
+  double young_modulus = 0.0;  ///< [Pa], effective
+  double poisson_ratio = 0.0;  ///< [-], effective
+  StrainMeasure strain = StrainMeasure::hencky;
+};
+using SoilLawOptions = std::variant<LinearElasticOptions>;
+
+enum class PoreWater { none, two_phase };
+enum class PermeabilityLaw { constant, kozeny_carman };
+
+struct GeostaticStress {
+  double lateral_coefficient = -1.0;  ///< K0 [-]; negative: nu/(1-nu)
+};
+
+/// One body of soil.
+struct SoilBody {
+  std::string name;
+  Shape shape;
+  double grain_density = 2650.0;          ///< [kg/m3]
+  double porosity = 0.4;                  ///< [-], initial
+  PoreWater pore_water = PoreWater::two_phase;
+  double intrinsic_permeability = 0.0;    ///< kappa [m2], initial
+  PermeabilityLaw permeability_law = PermeabilityLaw::constant;
+  int points_per_cell = 4;                ///< total per full cell; a D-th power (4, 9, 16 in 2D; 8, 27, 64 in 3D)
+  SoilLawOptions law;
+  std::variant<SymTensor, GeostaticStress> initial_stress = SymTensor{};  ///< effective, tension positive [Pa]
+  std::optional<Varying> initial_pore_pressure;  ///< [Pa], added to the hydrostatic one of GeostaticStress
+  std::array<Varying, 3> initial_velocity{};     ///< [m/s] per axis, grains and pore water alike
+};
+
+/// Pressure on the free surface of the soil, carried by the skeleton; positive pushes inwards.
+struct SurfaceLoad {
+  std::string name;
+  Varying pressure;               ///< [Pa]
+};
+
+enum class Kernel { linear, quadratic, composite };
+enum class Transfer { flip, apic };
+enum class LoadForm { virtual_stress, facets };
+
+struct SoilOptions {
+  std::vector<SoilBody> bodies;
+  std::vector<SurfaceLoad> loads;
+  double water_density = 1000.0;       ///< pore water [kg/m3]
+  double water_viscosity = 1.002e-3;   ///< [Pa s]
+  double water_bulk_modulus = 2.15e9;  ///< [Pa]
+  Kernel kernel = Kernel::composite;
+  Transfer transfer = Transfer::flip;
+  double flip_fraction = 0.99;         ///< share of FLIP in the velocity update [-], the rest is PIC
+  double damping = 0.0;                ///< local non-viscous damping coefficient [-] (Cundall)
+  double courant = 0.5;                ///< share of the undrained-wave step [-]
+  std::optional<double> max_step;      ///< [s]
+  LoadForm load_form = LoadForm::virtual_stress;
+};
+
+}  // namespace mudlark
