@@ -45,7 +45,8 @@ IndexBox<D> Grid<D>::owned_faces(int axis) const {
 
 template <int D>
 bool Grid<D>::touches(int axis, int side) const {
-  return partition_.neighbour[static_cast<std::size_t>(axis)][static_cast<std::size_t>(side)] == MPI_PROC_NULL;
+  return partition_.neighbour[static_cast<std::size_t>(axis)][static_cast<std::size_t>(side)] ==
+         MPI_PROC_NULL;
 }
 
 template <int D>

@@ -1,5 +1,6 @@
 #pragma once
-/// The one grid that water and soil share: uniform, rectangular, staggered (MAC), split over MPI ranks.
+/// The one grid that water and soil share: uniform, rectangular, staggered (MAC), split over MPI
+/// ranks.
 #include <array>
 #include <cstddef>
 
@@ -9,12 +10,13 @@
 
 namespace mudlark {
 
-/// Layers of cells kept around each rank's box: neighbours' cells, or the mirror region behind a wall.
+/// Layers of cells kept around each rank's box: neighbours' cells, or the mirror region behind a
+/// wall.
 inline constexpr int ghost_layers = 3;
 
-/// Value type. Cell `c` spans lower + c*spacing .. lower + (c+1)*spacing; face `c` of axis `a` is the
-/// lower face of cell `c` along `a`, so that axis has faces 0 .. cells[a] (the last one closes the domain
-/// and lies, on the last rank, in the first ghost layer).
+/// Value type. Cell `c` spans lower + c*spacing .. lower + (c+1)*spacing; face `c` of axis `a` is
+/// the lower face of cell `c` along `a`, so that axis has faces 0 .. cells[a] (the last one closes
+/// the domain and lies, on the last rank, in the first ghost layer).
 template <int D>
 class Grid {
  public:
@@ -28,7 +30,9 @@ class Grid {
   const Vec<D>& gravity() const { return gravity_; }  ///< [m/s2]
   double cell_volume() const { return volume_; }      ///< [m^D], area in 2D
   double smallest_spacing() const;                    ///< [m]
-  Wall wall(int axis, int side) const { return walls_[static_cast<std::size_t>(axis)][static_cast<std::size_t>(side)]; }
+  Wall wall(int axis, int side) const {
+    return walls_[static_cast<std::size_t>(axis)][static_cast<std::size_t>(side)];
+  }
   bool periodic(int axis) const { return wall(axis, 0) == Wall::periodic; }
   MPI_Comm comm() const { return partition_.comm; }
   int rank() const { return partition_.rank; }
@@ -55,8 +59,8 @@ class Grid {
     return at;
   }
 
-  Vec<D> cell_centre(const Index<D>& cell) const;              ///< [m]
-  Vec<D> face_centre(int axis, const Index<D>& face) const;    ///< [m]
+  Vec<D> cell_centre(const Index<D>& cell) const;            ///< [m]
+  Vec<D> face_centre(int axis, const Index<D>& face) const;  ///< [m]
   /// Cell that holds a position; outside the domain the index lies outside global().
   Index<D> cell_at(const Vec<D>& position) const;
 

@@ -28,7 +28,8 @@ std::size_t count(const IndexBox<D>& box) {
 
 /// One message along `axis`: values leave towards `side` and arrive from the opposite side.
 template <int D>
-void Halo<D>::shift(std::span<double* const> fields, int axis, int side, bool add) {
+void Halo<D>::shift(std::span<double* const> fields, std::size_t components, int axis, int side,
+                    bool add) {
   const auto& neighbour = grid_->partition().neighbour[static_cast<std::size_t>(axis)];
   const int to = neighbour[static_cast<std::size_t>(side)];
   const int from = neighbour[static_cast<std::size_t>(1 - side)];
@@ -36,36 +37,39 @@ void Halo<D>::shift(std::span<double* const> fields, int axis, int side, bool ad
   // Forward: my inner layers at `side` become the neighbour's ghosts. Adding: my ghosts go home.
   const IndexBox<D> out = layers(*grid_, axis, side, add);
   const IndexBox<D> in = layers(*grid_, axis, 1 - side, !add);
-  const std::size_t length = count(out) * fields.size();
+  const std::size_t length = count(out) * fields.size() * components;
   send_.resize(length);
   receive_.resize(length);
   std::size_t k = 0;
   if (to != MPI_PROC_NULL)
     for (double* field : fields)
-      for_each(out, [&](const Index<D>& i) { send_[k++] = field[grid_->offset(i)]; });
+      for_each(out, [&](const Index<D>& i) {
+        const double* place = field + static_cast<std::size_t>(grid_->offset(i)) * components;
+        for (std::size_t c = 0; c < components; ++c) send_[k++] = place[c];
+      });
   MPI_Sendrecv(send_.data(), to == MPI_PROC_NULL ? 0 : static_cast<int>(length), MPI_DOUBLE, to, 7,
-               receive_.data(), from == MPI_PROC_NULL ? 0 : static_cast<int>(length), MPI_DOUBLE, from, 7,
-               grid_->comm(), MPI_STATUS_IGNORE);
+               receive_.data(), from == MPI_PROC_NULL ? 0 : static_cast<int>(length), MPI_DOUBLE,
+               from, 7, grid_->comm(), MPI_STATUS_IGNORE);
   if (from == MPI_PROC_NULL) return;
   k = 0;
-  for (double* field : fields) {
-    if (add)
-      for_each(in, [&](const Index<D>& i) { field[grid_->offset(i)] += receive_[k++]; });
-    else
-      for_each(in, [&](const Index<D>& i) { field[grid_->offset(i)] = receive_[k++]; });
-  }
+  for (double* field : fields)
+    for_each(in, [&](const Index<D>& i) {
+      double* place = field + static_cast<std::size_t>(grid_->offset(i)) * components;
+      for (std::size_t c = 0; c < components; ++c)
+        place[c] = add ? place[c] + receive_[k++] : receive_[k++];
+    });
 }
 
 template <int D>
-void Halo<D>::exchange(std::span<double* const> fields) {
+void Halo<D>::exchange(std::span<double* const> fields, std::size_t components) {
   for (int axis = 0; axis < D; ++axis)
-    for (int side = 0; side < 2; ++side) shift(fields, axis, side, false);
+    for (int side = 0; side < 2; ++side) shift(fields, components, axis, side, false);
 }
 
 template <int D>
-void Halo<D>::add_to_owners(std::span<double* const> fields) {
+void Halo<D>::add_to_owners(std::span<double* const> fields, std::size_t components) {
   for (int axis = D - 1; axis >= 0; --axis)
-    for (int side = 0; side < 2; ++side) shift(fields, axis, side, true);
+    for (int side = 0; side < 2; ++side) shift(fields, components, axis, side, true);
 }
 
 template <int D>

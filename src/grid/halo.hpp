@@ -8,25 +8,26 @@
 
 namespace mudlark {
 
-/// Moves ghost layers of any number of fields in one message per neighbour. Axis after axis, so edges and
-/// corners are right. Layers behind a wall (non-periodic) belong to the rank at the wall: they travel to
-/// its neighbours sideways like any other value, and nothing is written across the wall itself.
-/// Faces follow the same rule: the closing face of an axis lies in the first layer behind the upper wall.
+/// Moves ghost layers of any number of fields in one message per neighbour. Axis after axis, so
+/// edges and corners are right. Layers behind a wall (non-periodic) belong to the rank at the wall:
+/// they travel to its neighbours sideways like any other value, and nothing is written across the
+/// wall itself. Faces follow the same rule: the closing face of an axis lies in the first layer
+/// behind the upper wall.
 template <int D>
 class Halo {
  public:
   explicit Halo(const Grid<D>& grid) : grid_(&grid) {}
 
-  /// Fills ghost values from their owners.
-  void exchange(std::span<double* const> fields);
+  /// Fills ghost values from their owners. `components` doubles stand side by side at each place.
+  void exchange(std::span<double* const> fields, std::size_t components = 1);
   /// Adds ghost values to their owners' values; afterwards ghosts are stale. (Particles to grid.)
-  void add_to_owners(std::span<double* const> fields);
+  void add_to_owners(std::span<double* const> fields, std::size_t components = 1);
 
   void exchange(CellField<D>& field);
   void exchange(FaceVector<D>& field);
 
  private:
-  void shift(std::span<double* const> fields, int axis, int side, bool add);
+  void shift(std::span<double* const> fields, std::size_t components, int axis, int side, bool add);
 
   const Grid<D>* grid_;
   std::vector<double> send_, receive_;

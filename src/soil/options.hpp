@@ -8,20 +8,9 @@
 #include "base/varying.hpp"
 #include "base/vec.hpp"
 #include "grid/shape.hpp"
+#include "materials/options.hpp"
 
 namespace mudlark {
-
-/// How strain is measured against stress. small: Cauchy stress linear in the displacement gradient;
-/// logarithmic: Cauchy stress linear in logarithmic strain; hencky: Kirchhoff stress linear in logarithmic
-/// strain; objective: Hill's rate, as Anura3D with its objective stress switched on.
-enum class StrainMeasure { small, logarithmic, hencky, objective };
-
-struct LinearElasticOptions {
-  double young_modulus = 0.0;  ///< [Pa], effective
-  double poisson_ratio = 0.0;  ///< [-], effective
-  StrainMeasure strain = StrainMeasure::hencky;
-};
-using SoilLawOptions = std::variant<LinearElasticOptions>;
 
 enum class PoreWater { none, two_phase };
 enum class PermeabilityLaw { constant, kozeny_carman };
@@ -34,22 +23,24 @@ struct GeostaticStress {
 struct SoilBody {
   std::string name;
   Shape shape;
-  double grain_density = 2650.0;          ///< [kg/m3]
-  double porosity = 0.4;                  ///< [-], initial
+  double grain_density = 2650.0;  ///< [kg/m3]
+  double porosity = 0.4;          ///< [-], initial
   PoreWater pore_water = PoreWater::two_phase;
-  double intrinsic_permeability = 0.0;    ///< kappa [m2], initial
+  double intrinsic_permeability = 0.0;  ///< kappa [m2], initial
   PermeabilityLaw permeability_law = PermeabilityLaw::constant;
-  int points_per_cell = 4;                ///< total per full cell; a D-th power (4, 9, 16 in 2D; 8, 27, 64 in 3D)
+  int points_per_cell = 4;  ///< total per full cell; a D-th power (4, 9, 16 in 2D; 8, 27, 64 in 3D)
   SoilLawOptions law;
-  std::variant<SymTensor, GeostaticStress> initial_stress = SymTensor{};  ///< effective, tension positive [Pa]
-  std::optional<Varying> initial_pore_pressure;  ///< [Pa], added to the hydrostatic one of GeostaticStress
-  std::array<Varying, 3> initial_velocity{};     ///< [m/s] per axis, grains and pore water alike
+  std::variant<SymTensor, GeostaticStress> initial_stress =
+      SymTensor{};  ///< effective, tension positive [Pa]
+  std::optional<Varying>
+      initial_pore_pressure;  ///< [Pa], added to the hydrostatic one of GeostaticStress
+  std::array<Varying, 3> initial_velocity{};  ///< [m/s] per axis, grains and pore water alike
 };
 
 /// Pressure on the free surface of the soil, carried by the skeleton; positive pushes inwards.
 struct SurfaceLoad {
   std::string name;
-  Varying pressure;               ///< [Pa]
+  Varying pressure;  ///< [Pa]
 };
 
 enum class Kernel { linear, quadratic, composite };
@@ -64,10 +55,10 @@ struct SoilOptions {
   double water_bulk_modulus = 2.15e9;  ///< [Pa]
   Kernel kernel = Kernel::composite;
   Transfer transfer = Transfer::flip;
-  double flip_fraction = 0.99;         ///< share of FLIP in the velocity update [-], the rest is PIC
-  double damping = 0.0;                ///< local non-viscous damping coefficient [-] (Cundall)
-  double courant = 0.5;                ///< share of the undrained-wave step [-]
-  std::optional<double> max_step;      ///< [s]
+  double flip_fraction = 0.99;     ///< share of FLIP in the velocity update [-], the rest is PIC
+  double damping = 0.0;            ///< local non-viscous damping coefficient [-] (Cundall)
+  double courant = 0.5;            ///< share of the undrained-wave step [-]
+  std::optional<double> max_step;  ///< [s]
   LoadForm load_form = LoadForm::virtual_stress;
 };
 

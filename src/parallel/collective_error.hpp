@@ -1,0 +1,16 @@
+#pragma once
+/// Errors that every rank must leave with, so that none waits for another for ever.
+#include <mpi.h>
+
+#include <string>
+
+namespace mudlark {
+
+/// Collective. When any rank brings a non-empty text, every rank throws DivergenceError with the text of the
+/// lowest such rank.
+void throw_divergence_if_any(MPI_Comm comm, const std::string& problem);
+
+/// The same with InputError.
+void throw_input_error_if_any(MPI_Comm comm, const std::string& problem);
+
+}  // namespace mudlark
