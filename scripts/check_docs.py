@@ -1,0 +1,71 @@
+#!/usr/bin/python3
+"""Fails when a page of the documentation points to nothing: relative links, their headings, pictures, and
+paths of this repository written as code (`scripts/test.sh`)."""
+import re
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
+CODE = re.compile(r"`([^`\n]+)`")
+# A code span is taken for a path when it starts with one of these and holds no placeholder.
+FOLDERS = ("apps/", "src/", "python/", "cases/", "tests/", "benchmarks/", "docs/", "scripts/", "cmake/", ".ci/")
+PLACEHOLDER = re.compile(r"[<>*{}$…]|NNNN|NAME|\.\.\.")
+
+
+def pages():
+    yield from sorted(ROOT.glob("*.md"))
+    for folder in ("docs", "cases", "benchmarks", "tests", "python"):
+        yield from sorted((ROOT / folder).rglob("*.md"))
+
+
+def without_code_blocks(text):
+    """The text with fenced blocks emptied, line numbers kept."""
+    inside, lines = False, []
+    for line in text.splitlines():
+        fence = line.lstrip().startswith("```")
+        lines.append("" if inside or fence else line)
+        inside ^= fence
+    return lines
+
+
+def anchors(page):
+    """Heading anchors of a page, as GitHub and most renderers make them."""
+    names = set()
+    for line in without_code_blocks(page.read_text()):
+        if line.startswith("#"):
+            title = line.lstrip("#").strip().lower()
+            names.add(re.sub(r"[^\w\- ]", "", title).replace(" ", "-"))
+    return names
+
+
+def problems_of(page):
+    for number, line in enumerate(without_code_blocks(page.read_text()), 1):
+        place = f"{page.relative_to(ROOT)}:{number}"
+        for target in LINK.findall(CODE.sub("", line)):
+            if re.match(r"[a-z]+:", target):
+                continue
+            path, _, anchor = target.partition("#")
+            linked = (page.parent / path).resolve() if path else page
+            if not linked.exists():
+                yield f"{place}: link to {target}, which does not exist"
+            elif anchor and linked.suffix == ".md" and anchor not in anchors(linked):
+                yield f"{place}: link to {target}, which has no such heading"
+        for code in CODE.findall(line):
+            first = code.split()[0] if code.split() else ""
+            if first.startswith(FOLDERS) and not PLACEHOLDER.search(first):
+                if not (ROOT / first.rstrip(":,")).exists():
+                    yield f"{place}: `{first}` does not exist"
+
+
+def main():
+    all_pages = list(pages())
+    problems = [problem for page in all_pages for problem in problems_of(page)]
+    for problem in problems:
+        print(problem)
+    print(f"check_docs: {len(all_pages)} pages, {len(problems)} problems")
+    return 1 if problems else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
