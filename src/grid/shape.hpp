@@ -52,4 +52,7 @@ struct Shape {
 /// (16 points per axis in 2D, 8 in 3D) otherwise.
 double fraction_inside(const Shape& shape, const Point3& lower, const Point3& upper, int dimension);
 
+/// Smallest box around a shape; sides to which the shape has no end are infinite.
+BoxShape bounds(const Shape& shape);
+
 }  // namespace mudlark

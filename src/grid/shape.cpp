@@ -1,0 +1,181 @@
+#include "grid/shape.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace mudlark {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr BoxShape everywhere{{-infinity, -infinity, -infinity}, {infinity, infinity, infinity}};
+
+bool inside(const BoxShape& box, const Point3& position) {
+  for (std::size_t a = 0; a < 3; ++a)
+    if (position[a] < box.lower[a] || position[a] > box.upper[a]) return false;
+  return true;
+}
+
+/// Even-odd rule: a ray to the right crosses the outline an odd number of times.
+bool inside(const PolygonShape& polygon, const Point3& position) {
+  const double first = position[0], second = polygon.vertical_plane ? position[2] : position[1];
+  if (!polygon.vertical_plane && (position[2] < polygon.bottom || position[2] > polygon.top))
+    return false;
+  bool odd = false;
+  for (std::size_t i = 0, j = polygon.corners.size() - 1; i < polygon.corners.size(); j = i++) {
+    const auto &a = polygon.corners[i], &b = polygon.corners[j];
+    if ((a[1] > second) == (b[1] > second)) continue;
+    if (first < a[0] + (b[0] - a[0]) * (second - a[1]) / (b[1] - a[1])) odd = !odd;
+  }
+  return odd;
+}
+
+bool inside(const SphereShape& sphere, const Point3& position) {
+  const double x = position[0] - sphere.centre[0];
+  const double y = sphere.circle ? 0.0 : position[1] - sphere.centre[1];
+  const double z = position[2] - sphere.centre[2];
+  return x * x + y * y + z * z <= sphere.radius * sphere.radius;
+}
+
+bool inside(const CylinderShape& cylinder, const Point3& position) {
+  double length2 = 0.0, along = 0.0, distance2 = 0.0;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const double axis = cylinder.to[a] - cylinder.from[a], way = position[a] - cylinder.from[a];
+    length2 += axis * axis, along += axis * way, distance2 += way * way;
+  }
+  if (along < 0.0 || along > length2) return false;
+  return distance2 - along * along / length2 <= cylinder.radius * cylinder.radius;
+}
+
+bool inside(const BelowShape& below, const Point3& position) {
+  const auto& line = below.line;
+  const double x = position[0];
+  if (x <= line.front()[0]) return position[2] <= line.front()[1];
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    if (x > line[i][0]) continue;
+    const double share = (x - line[i - 1][0]) / (line[i][0] - line[i - 1][0]);
+    return position[2] <= line[i - 1][1] + share * (line[i][1] - line[i - 1][1]);
+  }
+  return position[2] <= line.back()[1];
+}
+
+bool inside(const UnionShape& whole, const Point3& position) {
+  return std::any_of(whole.parts.begin(), whole.parts.end(),
+                     [&](const Shape& part) { return part.contains(position); });
+}
+
+bool inside(const DifferenceShape& whole, const Point3& position) {
+  return whole.parts.front().contains(position) &&
+         std::none_of(whole.parts.begin() + 1, whole.parts.end(),
+                      [&](const Shape& part) { return part.contains(position); });
+}
+
+double box_fraction(const BoxShape& box, const Point3& lower, const Point3& upper, int dimension) {
+  double fraction = 1.0;
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (dimension == 2 && a == 1) continue;
+    const double overlap = std::min(box.upper[a], upper[a]) - std::max(box.lower[a], lower[a]);
+    fraction *= std::clamp(overlap / (upper[a] - lower[a]), 0.0, 1.0);
+  }
+  return fraction;
+}
+
+double sampled_fraction(const Shape& shape, const Point3& lower, const Point3& upper,
+                        int dimension) {
+  const int samples = dimension == 2 ? 16 : 8, across = dimension == 2 ? 1 : samples;
+  const auto at = [&](std::size_t axis, int i, int count) {
+    return lower[axis] + (upper[axis] - lower[axis]) * (i + 0.5) / count;
+  };
+  int hits = 0;
+  for (int k = 0; k < samples; ++k)
+    for (int j = 0; j < across; ++j)
+      for (int i = 0; i < samples; ++i) {
+        const double y = dimension == 2 ? 0.0 : at(1, j, across);
+        if (shape.contains({at(0, i, samples), y, at(2, k, samples)})) ++hits;
+      }
+  return static_cast<double>(hits) / (samples * across * samples);
+}
+
+void grow(BoxShape& box, std::size_t axis, double value) {
+  box.lower[axis] = std::min(box.lower[axis], value);
+  box.upper[axis] = std::max(box.upper[axis], value);
+}
+
+BoxShape bounds_of(const BoxShape& box) { return box; }
+
+BoxShape bounds_of(const PolygonShape& polygon) {
+  BoxShape box = everywhere;
+  const std::size_t second = polygon.vertical_plane ? 2 : 1;
+  for (const std::size_t axis : {std::size_t{0}, second})
+    box.lower[axis] = infinity, box.upper[axis] = -infinity;
+  for (const auto& corner : polygon.corners) {
+    grow(box, 0, corner[0]);
+    grow(box, second, corner[1]);
+  }
+  if (!polygon.vertical_plane) box.lower[2] = polygon.bottom, box.upper[2] = polygon.top;
+  return box;
+}
+
+BoxShape bounds_of(const SphereShape& sphere) {
+  BoxShape box = everywhere;
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (sphere.circle && a == 1) continue;
+    box.lower[a] = sphere.centre[a] - sphere.radius;
+    box.upper[a] = sphere.centre[a] + sphere.radius;
+  }
+  return box;
+}
+
+/// The end discs reach radius * sin(angle between the cylinder and the axis) along each axis.
+BoxShape bounds_of(const CylinderShape& cylinder) {
+  BoxShape box;
+  double length2 = 0.0;
+  for (std::size_t a = 0; a < 3; ++a)
+    length2 += (cylinder.to[a] - cylinder.from[a]) * (cylinder.to[a] - cylinder.from[a]);
+  for (std::size_t a = 0; a < 3; ++a) {
+    const double way = cylinder.to[a] - cylinder.from[a];
+    const double reach = cylinder.radius * std::sqrt(std::max(0.0, 1.0 - way * way / length2));
+    box.lower[a] = std::min(cylinder.from[a], cylinder.to[a]) - reach;
+    box.upper[a] = std::max(cylinder.from[a], cylinder.to[a]) + reach;
+  }
+  return box;
+}
+
+BoxShape bounds_of(const BelowShape& below) {
+  BoxShape box = everywhere;
+  box.upper[2] = -infinity;
+  for (const auto& point : below.line) box.upper[2] = std::max(box.upper[2], point[1]);
+  return box;
+}
+
+BoxShape bounds_of(const UnionShape& whole) {
+  BoxShape box{everywhere.upper, everywhere.lower};
+  for (const Shape& part : whole.parts) {
+    const BoxShape other = bounds(part);
+    for (std::size_t a = 0; a < 3; ++a) {
+      grow(box, a, other.lower[a]);
+      grow(box, a, other.upper[a]);
+    }
+  }
+  return box;
+}
+
+BoxShape bounds_of(const DifferenceShape& whole) { return bounds(whole.parts.front()); }
+
+}  // namespace
+
+bool Shape::contains(const Point3& position) const {
+  return std::visit([&](const auto& kind) { return inside(kind, position); }, form);
+}
+
+double fraction_inside(const Shape& shape, const Point3& lower, const Point3& upper,
+                       int dimension) {
+  if (const auto* box = std::get_if<BoxShape>(&shape.form))
+    return box_fraction(*box, lower, upper, dimension);
+  return sampled_fraction(shape, lower, upper, dimension);
+}
+
+BoxShape bounds(const Shape& shape) {
+  return std::visit([](const auto& kind) { return bounds_of(kind); }, shape.form);
+}
+
+}  // namespace mudlark

@@ -1,0 +1,86 @@
+#include "grid/shape.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace mudlark {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+TEST(Shape, BoxHoldsItsFacesAndItsFractionOfACellIsExact) {
+  const Shape box{BoxShape{{0.0, -infinity, 0.0}, {1.0, infinity, 0.37}}};
+  EXPECT_TRUE(box.contains({1.0, 0.0, 0.37}));
+  EXPECT_FALSE(box.contains({1.0, 0.0, 0.3700001}));
+  EXPECT_DOUBLE_EQ(fraction_inside(box, {0.9, 0, 0.3}, {1.1, 0, 0.4}, 2), 0.5 * 0.7);
+  EXPECT_EQ(fraction_inside(box, {1.0, 0, 0.0}, {1.1, 0, 0.1}, 2), 0.0);
+}
+
+TEST(Shape, BoxFractionIn3DCountsAllThreeAxes) {
+  const Shape box{BoxShape{{0, 0, 0}, {1, 1, 1}}};
+  EXPECT_DOUBLE_EQ(fraction_inside(box, {0.5, 0.5, 0.5}, {1.5, 1.5, 1.5}, 3), 0.125);
+}
+
+TEST(Shape, PolygonWithANotchIsOutsideInItsNotch) {
+  const Shape polygon{PolygonShape{{{0, 0}, {4, 0}, {4, 3}, {2, 1}, {0, 3}}}};
+  EXPECT_TRUE(polygon.contains({2.0, 7.0, 0.9}));
+  EXPECT_FALSE(polygon.contains({2.0, 7.0, 1.1}));
+  EXPECT_TRUE(polygon.contains({0.5, 7.0, 2.0}));
+}
+
+TEST(Shape, HorizontalPolygonIsAPrismBetweenItsHeights) {
+  const Shape polygon{PolygonShape{{{0, 0}, {1, 0}, {0, 1}}, false, 2.0, 3.0}};
+  EXPECT_TRUE(polygon.contains({0.2, 0.2, 2.5}));
+  EXPECT_FALSE(polygon.contains({0.2, 0.2, 3.5}));
+  EXPECT_FALSE(polygon.contains({0.7, 0.7, 2.5}));
+}
+
+TEST(Shape, CircleFractionsSumToItsArea) {
+  const Shape circle{SphereShape{{0, 0, 0}, 1.0, true}};
+  double area = 0.0;
+  for (int i = -10; i < 10; ++i)
+    for (int k = -10; k < 10; ++k)
+      area += 0.0121 * fraction_inside(circle, {0.11 * i, 0, 0.11 * k},
+                                       {0.11 * (i + 1), 0, 0.11 * (k + 1)}, 2);
+  EXPECT_NEAR(area, std::numbers::pi, 3e-3);
+}
+
+TEST(Shape, SphereSeesTheYAxisAndACircleDoesNot) {
+  EXPECT_FALSE((Shape{SphereShape{{0, 0, 0}, 1.0, false}}).contains({0, 2, 0}));
+  EXPECT_TRUE((Shape{SphereShape{{0, 0, 0}, 1.0, true}}).contains({0, 2, 0}));
+}
+
+TEST(Shape, SlantedCylinderEndsAtItsDiscs) {
+  const Shape cylinder{CylinderShape{{0, 0, 0}, {1, 1, 1}, 0.1}};
+  EXPECT_TRUE(cylinder.contains({0.5, 0.5, 0.55}));
+  EXPECT_FALSE(cylinder.contains({0.5, 0.5, 0.7}));
+  EXPECT_FALSE(cylinder.contains({1.02, 1.02, 1.02}));
+  EXPECT_NEAR(bounds(cylinder).upper[2], 1.0 + 0.1 * std::sqrt(2.0 / 3.0), 1e-12);
+}
+
+TEST(Shape, BelowALineIsLinearBetweenItsPointsAndLevelBeyond) {
+  const Shape below{BelowShape{{{1, 0}, {3, 2}}}};
+  EXPECT_TRUE(below.contains({2.0, 0.0, 0.99}));
+  EXPECT_FALSE(below.contains({2.0, 0.0, 1.01}));
+  EXPECT_FALSE(below.contains({-5.0, 0.0, 0.1}));
+  EXPECT_TRUE(below.contains({9.0, 0.0, 1.9}));
+  EXPECT_EQ(bounds(below).upper[2], 2.0);
+  EXPECT_EQ(bounds(below).lower[0], -infinity);
+}
+
+TEST(Shape, DifferenceTakesEveryLaterPartFromTheFirstAndUnionAddsThem) {
+  const Shape big{BoxShape{{0, -1, 0}, {4, 1, 4}}}, hole{SphereShape{{2, 0, 2}, 1.0, true}};
+  const Shape difference{DifferenceShape{{big, hole}}};
+  const Shape both{UnionShape{{hole, Shape{BoxShape{{5, -1, 0}, {6, 1, 1}}}}}};
+  EXPECT_FALSE(difference.contains({2, 0, 2.5}));
+  EXPECT_TRUE(difference.contains({2, 0, 3.5}));
+  EXPECT_TRUE(both.contains({2, 0, 2.5}));
+  EXPECT_TRUE(both.contains({5.5, 0, 0.5}));
+  EXPECT_EQ(bounds(both).upper[0], 6.0);
+}
+
+}  // namespace
+}  // namespace mudlark
