@@ -14,7 +14,8 @@ int main(int argc, char** argv) {
     // Other ranks only speak when something fails there.
     class Failures : public testing::EmptyTestEventListener {
       void OnTestPartResult(const testing::TestPartResult& result) override {
-        if (result.failed()) std::printf("%s:%d: %s\n", result.file_name(), result.line_number(), result.message());
+        if (result.failed())
+          std::printf("%s:%d: %s\n", result.file_name(), result.line_number(), result.message());
       }
     };
     delete listeners.Release(listeners.default_result_printer());

@@ -7,7 +7,8 @@
 
 namespace mudlark {
 
-/// Value in SI units as a function of position (x, y, z) [m] and time [s]. `text` is what the user wrote.
+/// Value in SI units as a function of position (x, y, z) [m] and time [s]. `text` is what the user
+/// wrote.
 struct Varying {
   std::function<double(const Point3&, double)> function;
   std::string text;

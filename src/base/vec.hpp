@@ -42,7 +42,8 @@ double norm(const Vec<D>& vec) {
   return std::sqrt(dot(vec, vec));
 }
 
-/// Point in three-dimensional space (x, y, z) for shapes and expressions; in 2D the plane is x-z, y = 0.
+/// Point in three-dimensional space (x, y, z) for shapes and expressions; in 2D the plane is x-z, y
+/// = 0.
 using Point3 = std::array<double, 3>;
 
 template <int D>

@@ -10,10 +10,11 @@ namespace mudlark {
 enum class Wall { slip, no_slip, open, periodic };
 
 struct DomainOptions {
-  int dimension = 2;                        ///< 2 (plane strain, axes x and z) or 3
-  std::array<double, 3> lower{}, upper{};   ///< [m], first `dimension` entries used; last one vertical
-  std::array<int, 3> cells{1, 1, 1};        ///< number of cells per axis
-  std::array<double, 3> gravity{};          ///< acceleration [m/s2] per axis, usually (0, .., -9.81)
+  int dimension = 2;  ///< 2 (plane strain, axes x and z) or 3
+  std::array<double, 3> lower{},
+      upper{};                        ///< [m], first `dimension` entries used; last one vertical
+  std::array<int, 3> cells{1, 1, 1};  ///< number of cells per axis
+  std::array<double, 3> gravity{};    ///< acceleration [m/s2] per axis, usually (0, .., -9.81)
   std::array<std::array<Wall, 2>, 3> walls{};  ///< [axis][0: lower side, 1: upper side]
 };
 

@@ -16,13 +16,16 @@ namespace mudlark {
 struct AtCell {};
 struct AtFace {};
 
-/// Owns the values of one quantity on this rank's local box (owned cells and ghost layers), with its name
-/// and unit. Copying is explicit: `copy()`.
+/// Owns the values of one quantity on this rank's local box (owned cells and ghost layers), with
+/// its name and unit. Copying is explicit: `copy()`.
 template <class T, class Place, int D>
 class Field {
  public:
   Field(const Grid<D>& grid, std::string name, std::string unit, T value = T{})
-      : name_(std::move(name)), unit_(std::move(unit)), values_(grid.local_size(), value), local_(grid.local()) {
+      : name_(std::move(name)),
+        unit_(std::move(unit)),
+        values_(grid.local_size(), value),
+        local_(grid.local()) {
     for (int a = 0; a < D; ++a) strides_[static_cast<std::size_t>(a)] = grid.stride(a);
   }
   Field(Field&&) noexcept = default;
@@ -38,7 +41,8 @@ class Field {
   const T& operator[](const Index<D>& index) const { return values_[offset(index)]; }
   std::size_t offset(const Index<D>& index) const {
     std::ptrdiff_t at = 0;
-    for (int a = 0; a < D; ++a) at += (index[a] - local_.lower[a]) * strides_[static_cast<std::size_t>(a)];
+    for (int a = 0; a < D; ++a)
+      at += (index[a] - local_.lower[a]) * strides_[static_cast<std::size_t>(a)];
     return static_cast<std::size_t>(at);
   }
   T* data() { return values_.data(); }
@@ -67,7 +71,8 @@ using FaceField = Field<double, AtFace, D>;
 template <int D>
 class FaceVector {
  public:
-  FaceVector(const Grid<D>& grid, const std::string& name, const std::string& unit, double value = 0.0) {
+  FaceVector(const Grid<D>& grid, const std::string& name, const std::string& unit,
+             double value = 0.0) {
     axes_.reserve(D);
     for (int a = 0; a < D; ++a) axes_.emplace_back(grid, name, unit, value);
   }

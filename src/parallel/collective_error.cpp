@@ -24,7 +24,8 @@ std::string first_text(MPI_Comm comm, const std::string& text) {
 }  // namespace
 
 void throw_divergence_if_any(MPI_Comm comm, const std::string& problem) {
-  if (const std::string text = first_text(comm, problem); !text.empty()) throw DivergenceError(text);
+  if (const std::string text = first_text(comm, problem); !text.empty())
+    throw DivergenceError(text);
 }
 
 void throw_input_error_if_any(MPI_Comm comm, const std::string& problem) {

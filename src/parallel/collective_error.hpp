@@ -6,8 +6,8 @@
 
 namespace mudlark {
 
-/// Collective. When any rank brings a non-empty text, every rank throws DivergenceError with the text of the
-/// lowest such rank.
+/// Collective. When any rank brings a non-empty text, every rank throws DivergenceError with the
+/// text of the lowest such rank.
 void throw_divergence_if_any(MPI_Comm comm, const std::string& problem);
 
 /// The same with InputError.

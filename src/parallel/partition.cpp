@@ -14,7 +14,8 @@ void check(PetscErrorCode code, const char* what) {
   if (code) throw std::runtime_error(fmt::format("PETSc failed to {} (error {})", what, code));
 }
 
-/// Largest process grid whose blocks are at least `minimum_width` cells wide and as cubic as possible.
+/// Largest process grid whose blocks are at least `minimum_width` cells wide and as cubic as
+/// possible.
 template <int D>
 Index<D> choose_processes(int size, const Index<D>& cells, int minimum_width) {
   Index<D> best{};
@@ -40,18 +41,18 @@ Index<D> choose_processes(int size, const Index<D>& cells, int minimum_width) {
     }
   }
   if (best_surface < 0.0)
-    throw InputError(
-        fmt::format("{} ranks are too many for this grid (each rank needs {} cells along every axis that is "
-                    "split). Use fewer ranks (-n) or more cells.",
-                    size, minimum_width));
+    throw InputError(fmt::format(
+        "{} ranks are too many for this grid (each rank needs {} cells along every axis that is "
+        "split). Use fewer ranks (-n) or more cells.",
+        size, minimum_width));
   return best;
 }
 
 }  // namespace
 
 template <int D>
-Partition<D> make_partition(MPI_Comm comm, const Index<D>& cells, const std::array<bool, D>& periodic,
-                            int minimum_width) {
+Partition<D> make_partition(MPI_Comm comm, const Index<D>& cells,
+                            const std::array<bool, D>& periodic, int minimum_width) {
   Partition<D> part;
   part.comm = comm;
   MPI_Comm_rank(comm, &part.rank);
@@ -63,13 +64,13 @@ Partition<D> make_partition(MPI_Comm comm, const Index<D>& cells, const std::arr
     return periodic[static_cast<std::size_t>(a)] ? DM_BOUNDARY_PERIODIC : DM_BOUNDARY_NONE;
   };
   if constexpr (D == 2) {
-    check(DMDACreate2d(comm, edge(0), edge(1), DMDA_STENCIL_BOX, cells[0], cells[1], part.processes[0],
-                       part.processes[1], 1, 1, nullptr, nullptr, &da),
+    check(DMDACreate2d(comm, edge(0), edge(1), DMDA_STENCIL_BOX, cells[0], cells[1],
+                       part.processes[0], part.processes[1], 1, 1, nullptr, nullptr, &da),
           "create the grid");
   } else {
-    check(DMDACreate3d(comm, edge(0), edge(1), edge(2), DMDA_STENCIL_BOX, cells[0], cells[1], cells[2],
-                       part.processes[0], part.processes[1], part.processes[2], 1, 1, nullptr, nullptr,
-                       nullptr, &da),
+    check(DMDACreate3d(comm, edge(0), edge(1), edge(2), DMDA_STENCIL_BOX, cells[0], cells[1],
+                       cells[2], part.processes[0], part.processes[1], part.processes[2], 1, 1,
+                       nullptr, nullptr, nullptr, &da),
           "create the grid");
   }
   check(DMSetUp(da), "partition the grid");
@@ -87,7 +88,9 @@ Partition<D> make_partition(MPI_Comm comm, const Index<D>& cells, const std::arr
     const bool wraps = periodic[static_cast<std::size_t>(a)];
     auto& [below, above] = part.neighbour[static_cast<std::size_t>(a)];
     const int base = part.rank - part.place[a] * stride;
-    below = part.place[a] > 0 ? part.rank - stride : wraps ? base + (count - 1) * stride : MPI_PROC_NULL;
+    below = part.place[a] > 0 ? part.rank - stride
+            : wraps           ? base + (count - 1) * stride
+                              : MPI_PROC_NULL;
     above = part.place[a] + 1 < count ? part.rank + stride : wraps ? base : MPI_PROC_NULL;
     stride *= count;
   }
