@@ -1,0 +1,149 @@
+#include "soil/redistribute.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <numeric>
+
+#include "parallel/collective_error.hpp"
+
+namespace mudlark {
+namespace {
+
+/// Removes the points whose flag is set, keeping the order of the others.
+template <int D>
+void remove_flagged(SoilParticles<D>& points, const std::vector<char>& flagged) {
+  const auto compact = [&](auto& array) {
+    std::size_t kept = 0;
+    for (std::size_t p = 0; p < flagged.size(); ++p)
+      if (!flagged[p]) array[kept++] = array[p];
+    array.resize(kept);
+  };
+  compact(points.id);
+  points.for_each_array(compact);
+}
+
+/// All values of the flagged points, point after point.
+template <int D>
+std::vector<double> pack(SoilParticles<D>& points, const std::vector<char>& flagged) {
+  std::vector<double> buffer;
+  for (std::size_t p = 0; p < flagged.size(); ++p) {
+    if (!flagged[p]) continue;
+    buffer.push_back(std::bit_cast<double>(points.id[p]));
+    points.for_each_array([&](std::vector<double>& array) { buffer.push_back(array[p]); });
+  }
+  return buffer;
+}
+
+template <int D>
+void unpack(SoilParticles<D>& points, const std::vector<double>& buffer) {
+  std::size_t at = 0;
+  while (at < buffer.size()) {
+    points.id.push_back(std::bit_cast<std::int64_t>(buffer[at++]));
+    points.for_each_array([&](std::vector<double>& array) { array.push_back(buffer[at++]); });
+  }
+}
+
+std::vector<double> exchange(MPI_Comm comm, const std::vector<double>& send, int to, int from) {
+  int outgoing = static_cast<int>(send.size()), incoming = 0;
+  MPI_Sendrecv(&outgoing, 1, MPI_INT, to, 11, &incoming, 1, MPI_INT, from, 11, comm,
+               MPI_STATUS_IGNORE);
+  std::vector<double> received(static_cast<std::size_t>(incoming));
+  MPI_Sendrecv(send.data(), outgoing, MPI_DOUBLE, to, 12, received.data(), incoming, MPI_DOUBLE,
+               from, 12, comm, MPI_STATUS_IGNORE);
+  return received;
+}
+
+/// Deals with the points beyond a wall: wraps, removes, or reports them. Returns the grain mass
+/// removed.
+template <int D>
+double treat_walls(const Grid<D>& grid, SoilParticles<D>& points) {
+  std::vector<char> gone(points.size(), 0);
+  std::string problem;
+  double removed = 0.0;
+  for (int a = 0; a < D; ++a) {
+    const double lower = grid.lower()[a], upper = grid.upper()[a], length = upper - lower;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      double& x = points.position[a][p];
+      const int side = x < lower ? 0 : x >= upper ? 1 : -1;
+      if (side < 0 || gone[p]) continue;
+      if (grid.periodic(a)) {
+        x += side == 0 ? length : -length;
+        points.start[a][p] += side == 0 ? length : -length;
+      } else if (grid.wall(a, side) == Wall::open) {
+        gone[p] = 1;
+        removed += points.grain_mass[p];
+      } else if (problem.empty()) {
+        problem = fmt::format(
+            "a material point (id {}) went through the closed wall on the {} side of axis {}",
+            points.id[p], side == 0 ? "lower" : "upper", a);
+      }
+    }
+  }
+  throw_divergence_if_any(grid.comm(), problem);
+  if (removed > 0.0) remove_flagged(points, gone);
+  return removed;
+}
+
+template <int D>
+void send_to_side(const Grid<D>& grid, SoilParticles<D>& points, int axis, int side) {
+  const auto& neighbour = grid.partition().neighbour[static_cast<std::size_t>(axis)];
+  const int to = neighbour[static_cast<std::size_t>(side)],
+            from = neighbour[static_cast<std::size_t>(1 - side)];
+  std::vector<char> leaving(points.size(), 0);
+  if (to != MPI_PROC_NULL)
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      const int cell = grid.cell_at(points.position_of(p))[axis];
+      leaving[p] = side == 0 ? cell < grid.owned().lower[axis] : cell >= grid.owned().upper[axis];
+    }
+  const std::vector<double> received = exchange(grid.comm(), pack(points, leaving), to, from);
+  remove_flagged(points, leaving);
+  unpack(points, received);
+}
+
+}  // namespace
+
+template <int D>
+double migrate(const Grid<D>& grid, SoilParticles<D>& points) {
+  const double removed = treat_walls(grid, points);
+  if (grid.ranks() == 1) return removed;
+  for (int away = 1; away > 0;) {
+    for (int axis = 0; axis < D; ++axis)
+      for (int side = 0; side < 2; ++side)
+        if (grid.partition().processes[axis] > 1) send_to_side(grid, points, axis, side);
+    int mine = 0;
+    for (std::size_t p = 0; p < points.size(); ++p)
+      if (!grid.owned().contains(grid.cell_at(points.position_of(p)))) mine = 1;
+    MPI_Allreduce(&mine, &away, 1, MPI_INT, MPI_MAX, grid.comm());
+  }
+  return removed;
+}
+
+template <int D>
+void sort_by_cell(const Grid<D>& grid, SoilParticles<D>& points) {
+  std::vector<std::ptrdiff_t> cell(points.size());
+  for (std::size_t p = 0; p < points.size(); ++p)
+    cell[p] = grid.offset(grid.cell_at(points.position_of(p)));
+  if (std::is_sorted(cell.begin(), cell.end())) return;
+  std::vector<std::size_t> start(grid.local_size() + 1, 0);
+  for (const std::ptrdiff_t c : cell) ++start[static_cast<std::size_t>(c) + 1];
+  std::partial_sum(start.begin(), start.end(), start.begin());
+  std::vector<std::size_t> target(points.size());
+  for (std::size_t p = 0; p < points.size(); ++p)
+    target[p] = start[static_cast<std::size_t>(cell[p])]++;
+  const auto reorder = [&](auto& array) {
+    auto sorted = array;
+    for (std::size_t p = 0; p < target.size(); ++p) sorted[target[p]] = array[p];
+    array.swap(sorted);
+  };
+  reorder(points.id);
+  points.for_each_array(reorder);
+}
+
+template double migrate(const Grid<2>&, SoilParticles<2>&);
+template double migrate(const Grid<3>&, SoilParticles<3>&);
+template void sort_by_cell(const Grid<2>&, SoilParticles<2>&);
+template void sort_by_cell(const Grid<3>&, SoilParticles<3>&);
+
+}  // namespace mudlark

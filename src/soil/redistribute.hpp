@@ -1,0 +1,19 @@
+#pragma once
+/// Points to their owners and into the order of the cells.
+#include "grid/grid.hpp"
+#include "soil/particles.hpp"
+
+namespace mudlark {
+
+/// Collective. Sends each point to the rank that owns its cell (axis after axis, as often as
+/// needed), wraps points around periodic sides, and removes points that left through an open side.
+/// Returns the grain mass [kg] removed on this rank. A point behind a closed wall is an error of
+/// the computation: DivergenceError.
+template <int D>
+double migrate(const Grid<D>& grid, SoilParticles<D>& points);
+
+/// Sorts points by cell (stable counting sort), first axis fastest.
+template <int D>
+void sort_by_cell(const Grid<D>& grid, SoilParticles<D>& points);
+
+}  // namespace mudlark

@@ -1,0 +1,150 @@
+#include "soil/seeding.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "base/errors.hpp"
+#include "materials/registry.hpp"
+
+namespace mudlark {
+namespace {
+
+/// Points per cell and axis.
+template <int D>
+int points_per_axis(const SoilBody& body) {
+  const int m = static_cast<int>(std::lround(std::pow(body.points_per_cell, 1.0 / D)));
+  if (static_cast<int>(std::lround(std::pow(m, D))) != body.points_per_cell)
+    throw InputError(fmt::format(
+        "soil {}: points_per_cell = {} is not a {} number (for example {} or {})", body.name,
+        body.points_per_cell, D == 2 ? "square" : "cubic", D == 2 ? 4 : 8, D == 2 ? 9 : 27));
+  return m;
+}
+
+/// Position of a point of the lattice that fills a cell with m points per axis.
+template <int D>
+Vec<D> lattice_point(const Grid<D>& grid, const Index<D>& cell, const Index<D>& sub, int m) {
+  Vec<D> x;
+  for (int a = 0; a < D; ++a)
+    x[a] = grid.lower()[a] + (cell[a] + (sub[a] + 0.5) / m) * grid.spacing()[a];
+  return x;
+}
+
+template <int D>
+Index<D> cube(int m) {
+  Index<D> corner;
+  for (int a = 0; a < D; ++a) corner[a] = m;
+  return corner;
+}
+
+/// The body whose shape holds a place, or -1.
+int body_at(const SoilOptions& options, const Point3& place) {
+  for (std::size_t b = 0; b < options.bodies.size(); ++b)
+    if (options.bodies[b].shape.contains(place)) return static_cast<int>(b);
+  return -1;
+}
+
+/// Weight that grains give to those below them, per volume [N/m^D].
+double submerged_unit_weight(const SoilOptions& options, const SoilBody& body, double gravity) {
+  const double buoyancy = body.pore_water == PoreWater::none ? 0.0 : options.water_density;
+  return (1.0 - body.porosity) * (body.grain_density - buoyancy) * gravity;
+}
+
+struct Overburden {
+  double effective = 0.0;  ///< [Pa]
+  double water = 0.0;      ///< [Pa]
+};
+
+/// Sums the column of soil above a place in steps of the lattice, half a step of its own included.
+template <int D>
+Overburden overburden(const Grid<D>& grid, const SoilOptions& options, const Vec<D>& place,
+                      double step) {
+  const double gravity = -grid.gravity()[D - 1];
+  Overburden sum;
+  Vec<D> x = place;
+  for (double share = 0.5; x[D - 1] < grid.upper()[D - 1]; share = 1.0, x[D - 1] += step) {
+    const int number = body_at(options, to_point3(x));
+    if (number < 0) continue;
+    const SoilBody& body = options.bodies[static_cast<std::size_t>(number)];
+    sum.effective += share * step * submerged_unit_weight(options, body, gravity);
+    if (body.pore_water != PoreWater::none)
+      sum.water += share * step * options.water_density * gravity;
+  }
+  return sum;
+}
+
+double lateral_coefficient(const SoilBody& body, const GeostaticStress& geostatic) {
+  if (geostatic.lateral_coefficient >= 0.0) return geostatic.lateral_coefficient;
+  return std::visit([](const auto& law) { return law.poisson_ratio / (1.0 - law.poisson_ratio); },
+                    body.law);
+}
+
+}  // namespace
+
+template <int D>
+SoilParticles<D> seed_points(const Grid<D>& grid, const SoilBody& body, std::size_t body_number,
+                             Transfer transfer) {
+  SoilParticles<D> points;
+  points.carries_affine = transfer == Transfer::apic;
+  points.carries_deformation = strain_measure(body.law) == StrainMeasure::small;
+  const int m = points_per_axis<D>(body);
+  const double volume = grid.cell_volume() / body.points_per_cell;
+  for_each(grid.owned(), [&](const Index<D>& cell) {
+    std::int64_t number = 0;
+    for (int a = D - 1; a >= 0; --a) number = number * grid.cells()[a] + cell[a];
+    number = (number * body.points_per_cell) * 64 + static_cast<std::int64_t>(body_number);
+    for_each(IndexBox<D>{Index<D>{}, cube<D>(m)}, [&](const Index<D>& sub) {
+      const Vec<D> x = lattice_point(grid, cell, sub, m);
+      const std::int64_t id = number;
+      number += 64;
+      if (!body.shape.contains(to_point3(x))) return;
+      const std::size_t p = points.size();
+      points.resize(p + 1);
+      points.id[p] = id;
+      for (int a = 0; a < D; ++a) {
+        points.position[a][p] = points.start[a][p] = x[a];
+        const int component = D == 2 && a == 1 ? 2 : a;
+        points.velocity[a][p] = points.water_velocity[a][p] =
+            body.initial_velocity[static_cast<std::size_t>(component)](to_point3(x), 0.0);
+      }
+      points.volume[p] = points.start_volume[p] = volume;
+      points.grain_mass[p] = (1.0 - body.porosity) * body.grain_density * volume;
+    });
+  });
+  return points;
+}
+
+template <int D>
+void set_initial_stress(const Grid<D>& grid, const SoilOptions& options,
+                        std::vector<SoilParticles<D>>& bodies) {
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const SoilBody& body = options.bodies[b];
+    const double step = grid.spacing()[D - 1] / points_per_axis<D>(body);
+    for (std::size_t p = 0; p < bodies[b].size(); ++p) {
+      SymTensor stress;
+      double pore_pressure = 0.0;
+      if (const auto* tensor = std::get_if<SymTensor>(&body.initial_stress)) {
+        stress = *tensor;
+      } else {
+        const Overburden above = overburden(grid, options, bodies[b].position_of(p), step);
+        const double k0 = lateral_coefficient(body, std::get<GeostaticStress>(body.initial_stress));
+        stress.zz = -above.effective;
+        stress.xx = stress.yy = -k0 * above.effective;
+        if (body.pore_water != PoreWater::none) pore_pressure = above.water;
+      }
+      if (body.initial_pore_pressure)
+        pore_pressure += (*body.initial_pore_pressure)(to_point3(bodies[b].position_of(p)), 0.0);
+      set_tensor(bodies[b].stress, p, stress);
+      bodies[b].pore_pressure[p] = pore_pressure;
+    }
+  }
+}
+
+template SoilParticles<2> seed_points(const Grid<2>&, const SoilBody&, std::size_t, Transfer);
+template SoilParticles<3> seed_points(const Grid<3>&, const SoilBody&, std::size_t, Transfer);
+template void set_initial_stress(const Grid<2>&, const SoilOptions&,
+                                 std::vector<SoilParticles<2>>&);
+template void set_initial_stress(const Grid<3>&, const SoilOptions&,
+                                 std::vector<SoilParticles<3>>&);
+
+}  // namespace mudlark

@@ -1,0 +1,382 @@
+#include "soil/soil_solver.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/errors.hpp"
+#include "materials/registry.hpp"
+#include "parallel/collective_error.hpp"
+#include "soil/kinematics.hpp"
+#include "soil/redistribute.hpp"
+#include "soil/seeding.hpp"
+#include "soil/walls.hpp"
+
+namespace mudlark {
+namespace {
+
+/// Faces lighter than this share of a full one carry no motion of their own.
+constexpr double lightest_face = 1e-12;
+/// Above this share of a cell's volume a face counts as inside the soil, below it as the soil's
+/// rim.
+constexpr double rim_share = 0.9;
+
+template <class T, int D, std::size_t... A>
+NodeField<T, D> make_node_field(const Grid<D>& grid, const char* name, std::index_sequence<A...>) {
+  return {((void)A, Field<T, AtFace, D>(grid, name, ""))...};
+}
+template <class T, int D>
+NodeField<T, D> make_node_field(const Grid<D>& grid, const char* name) {
+  return make_node_field<T, D>(grid, name, std::make_index_sequence<static_cast<std::size_t>(D)>{});
+}
+
+template <class T, int D>
+std::array<double*, D> as_doubles(NodeField<T, D>& nodes) {
+  static_assert(sizeof(T) % sizeof(double) == 0);
+  std::array<double*, D> all{};
+  for (std::size_t a = 0; a < all.size(); ++a) all[a] = reinterpret_cast<double*>(nodes[a].data());
+  return all;
+}
+
+/// Square of the fastest compression wave [m2/s2]: the larger eigenvalue of the drag-free two-phase
+/// problem M^-1 K, K = [E + (1-n)^2 Q, (1-n) n Q; ., n^2 Q], Q = K_w/n, M = diag((1-n) rho_s, n
+/// rho_w). The undrained wave (E + Q)/rho is its Rayleigh quotient for equal velocities, hence
+/// slower.
+double fastest_wave_squared(double modulus, double porosity, double grain_density,
+                            double water_density, double water_bulk_modulus) {
+  const double n = porosity, solid = 1.0 - n;
+  if (water_density == 0.0) return modulus / (solid * grain_density);
+  const double q = water_bulk_modulus / n;
+  const double a = (modulus + solid * solid * q) / (solid * grain_density);
+  const double d = n * q / water_density;
+  const double bc = solid * n * q * q / (grain_density * water_density);
+  return 0.5 * (a + d + std::sqrt((a - d) * (a - d) + 4.0 * bc));
+}
+
+}  // namespace
+
+template <int D>
+SoilSolver<D>::SoilSolver(const Grid<D>& grid, const SoilOptions& options)
+    : grid_(&grid),
+      options_(options),
+      halo_(grid),
+      surface_(grid, options.loads),
+      sums_(make_node_field<NodeSums, D>(grid, "soil sums")),
+      motion_(make_node_field<NodeMotion, D>(grid, "soil motion")),
+      occupied_(grid, "cells with soil", "1") {
+  if (options.transfer == Transfer::apic && options.kernel == Kernel::linear)
+    throw InputError(
+        "transfer = \"apic\" needs kernel = \"quadratic\" or \"composite\" (the inertia of a "
+        "linear "
+        "stencil vanishes at its nodes); or use transfer = \"flip\".");
+  for (const SoilBody& body : options.bodies) {
+    const bool wet = body.pore_water == PoreWater::two_phase;
+    constants_.push_back({body.grain_density, body.porosity, wet ? options.water_density : 0.0,
+                          options.water_viscosity, body.intrinsic_permeability,
+                          body.permeability_law});
+    laws_.push_back(make_soil_model(body.law));
+  }
+}
+
+template <int D>
+void SoilSolver<D>::initialise() {
+  points_.clear();
+  for (std::size_t b = 0; b < options_.bodies.size(); ++b)
+    points_.push_back(seed_points(*grid_, options_.bodies[b], b, options_.transfer));
+  set_initial_stress(*grid_, options_, points_);
+  for (std::size_t b = 0; b < points_.size(); ++b)
+    initialise_elastic_state(points_[b], *laws_[b], strain_measure(options_.bodies[b].law));
+  redistribute();
+}
+
+template <int D>
+bool SoilSolver<D>::two_phase() const {
+  return std::any_of(constants_.begin(), constants_.end(),
+                     [](const BodyConstants& body) { return body.water_density > 0.0; });
+}
+
+template <int D>
+void SoilSolver<D>::redistribute() {
+  for (auto& points : points_) {
+    removed_grain_mass_ += migrate(*grid_, points);
+    sort_by_cell(*grid_, points);
+  }
+  // The box of all soil, so that faces loaded from a neighbouring rank are inside too.
+  std::array<int, 2 * D> extreme{}, widest{};
+  extreme.fill(std::numeric_limits<int>::min() / 2);
+  for (const auto& points : points_)
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      const Index<D> cell = grid_->cell_at(points.position_of(p));
+      for (std::size_t a = 0; a < static_cast<std::size_t>(D); ++a) {
+        extreme[a] = std::max(extreme[a], -cell.component[a]);
+        extreme[a + D] = std::max(extreme[a + D], cell.component[a]);
+      }
+    }
+  MPI_Allreduce(extreme.data(), widest.data(), 2 * D, MPI_INT, MPI_MAX, grid_->comm());
+  for (int a = 0; a < D; ++a) {  // one cell of travel and two of the kernel
+    active_.lower[a] = -widest[static_cast<std::size_t>(a)] - ghost_layers;
+    active_.upper[a] = widest[static_cast<std::size_t>(a + D)] + ghost_layers + 1;
+    if (grid_->periodic(a))
+      active_.lower[a] = grid_->local().lower[a], active_.upper[a] = grid_->local().upper[a];
+  }
+  active_ = active_.intersected(grid_->local());
+  travelled_ = 0.0;
+}
+
+template <int D>
+double SoilSolver<D>::stable_step() const {
+  double fastest = 0.0;
+  for (std::size_t b = 0; b < points_.size(); ++b) {
+    const auto& points = points_[b];
+    const BodyConstants& body = constants_[b];
+    double least_porosity = 1.0, least_stretch = 1.0, speed2 = 0.0;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      least_porosity = std::min(
+          least_porosity, 1.0 - points.grain_mass[p] / (body.grain_density * points.volume[p]));
+      least_stretch = std::min(least_stretch, points.volume[p] / points.start_volume[p]);
+      double v2 = 0.0, w2 = 0.0;
+      for (int a = 0; a < D; ++a) {
+        v2 += points.velocity[a][p] * points.velocity[a][p];
+        w2 += points.water_velocity[a][p] * points.water_velocity[a][p];
+      }
+      speed2 = std::max({speed2, v2, w2});
+    }
+    if (points.size() == 0) continue;
+    // Tangent of a law linear in logarithmic strain, seen in the compressed state (Kirchhoff: (M -
+    // tau)/J).
+    const double modulus =
+        laws_[b]->wave_modulus({}, {}) * (1.0 - std::log(least_stretch)) / least_stretch;
+    const double n = std::clamp(least_porosity, 0.01, 0.99);
+    const double wave2 = fastest_wave_squared(modulus, n, body.grain_density, body.water_density,
+                                              options_.water_bulk_modulus);
+    fastest = std::max(fastest, std::sqrt(wave2) + std::sqrt(speed2));
+  }
+  fastest = max_over_ranks(*grid_, fastest);
+  double step = fastest > 0.0 ? options_.courant * grid_->smallest_spacing() / fastest
+                              : std::numeric_limits<double>::max();
+  if (options_.max_step) step = std::min(step, *options_.max_step);
+  return step;
+}
+
+template <int D>
+void SoilSolver<D>::begin_step(double time, double length, const FluidLoad<D>* water) {
+  redistribute();
+  time_ = time;
+  surface_.begin_step(time, length, water, active_);
+}
+
+template <int D>
+void SoilSolver<D>::advance(double dt) {
+  if (travelled_ > 0.9) {
+    redistribute();
+    surface_.resample(active_);
+  }
+  gather_nodes();
+  solve_nodes(dt);
+  update_points(dt);
+  time_ += dt;
+}
+
+/// Points to faces: sums on owned faces, mirrored walls included.
+template <int D>
+void SoilSolver<D>::gather_nodes() {
+  for (auto& field : sums_)
+    for_each(active_, [&](const Index<D>& face) { field[face] = NodeSums{}; });
+  SurfacePressure<D> surface = surface_.at(time_);
+  const bool facets = options_.load_form == LoadForm::facets && surface.traction;
+  for (std::size_t b = 0; b < points_.size(); ++b)
+    points_to_grid(*grid_, points_[b], constants_[b], options_.kernel, options_.transfer,
+                   facets ? SurfacePressure<D>{} : surface, sums_);
+  if (grid_->ranks() > 1 || grid_->periodic(0) || grid_->periodic(D - 1) || grid_->periodic(D / 2))
+    halo_.add_to_owners(as_doubles<NodeSums, D>(sums_), node_sums);
+  fold_into_domain(*grid_, sums_);
+  if (facets) {
+    for_each(active_, [&](const Index<D>& cell) { occupied_[cell] = 0.0; });
+    for (const auto& points : points_) mark_occupied(*grid_, points, occupied_);
+    halo_.exchange(occupied_);
+    add_facet_forces(*grid_, occupied_, surface, active_, sums_);
+  }
+}
+
+/// Momentum of both phases on a face, drag implicit: NUMERICS A1,
+/// [M_s + dt b, -dt b; -dt b, M_l + dt b] [v_s; v_f]' = [M_s v_s + dt F_s; M_l v_f + dt F_f].
+template <int D>
+void SoilSolver<D>::solve_face(const NodeSums& sums, double gravity, double dt, double face_volume,
+                               NodeMotion& motion) const {
+  motion = NodeMotion{};
+  const double ms = sums.grain_mass, ml = sums.water_mass;
+  if (sums.volume < lightest_face * face_volume) return;
+  const double porosity =
+      ml > 0.0 ? std::min(1.0, ml / (options_.water_density * sums.volume)) : 0.0;
+  const double water_force = porosity * sums.water_force + ml * gravity;
+  const double grain_force = sums.mixture_force - porosity * sums.water_force + ms * gravity;
+  const double grain_rhs = sums.grain_momentum + dt * grain_force;
+  const double water_rhs = sums.water_momentum + dt * water_force;
+  const bool locked = surface_.sealed() && sums.volume < rim_share * face_volume;
+  const double old_grain = sums.grain_momentum / ms,
+               old_water = ml > 0.0 ? sums.water_momentum / ml : old_grain;
+  double vs, vl;
+  if (ml <= 0.0) {
+    vs = vl = grain_rhs / ms;
+  } else if (locked) {
+    vs = vl = (grain_rhs + water_rhs) / (ms + ml);
+  } else {
+    const double drag = dt * sums.drag, determinant = ms * ml + drag * (ms + ml);
+    vs = (grain_rhs * (ml + drag) + drag * water_rhs) / determinant;
+    vl = (water_rhs * (ms + drag) + drag * grain_rhs) / determinant;
+  }
+  // Local damping (Cundall 1987): a share of the unbalanced force against the motion, each phase by
+  // itself.
+  const auto damped = [&](double now, double old) {
+    const double change = now - old;
+    return now - options_.damping * std::copysign(std::abs(change), old);
+  };
+  if (options_.damping > 0.0) vs = damped(vs, old_grain), vl = damped(vl, old_water);
+  motion.grain_velocity = vs;
+  motion.grain_change = vs - old_grain;
+  motion.water_velocity = vl;
+  motion.water_change = vl - old_water;
+  motion.total_flux = vs + porosity * (vl - vs);
+}
+
+template <int D>
+void SoilSolver<D>::solve_nodes(double dt) {
+  for (int d = 0; d < D; ++d) {
+    const auto u = static_cast<std::size_t>(d);
+    const double gravity = grid_->gravity()[d], volume = grid_->cell_volume();
+    for_each(active_, [&](const Index<D>& face) {
+      solve_face(sums_[u][face], gravity, dt, volume, motion_[u][face]);
+    });
+  }
+  mirror_motion(*grid_, motion_);
+  if (grid_->ranks() > 1 || grid_->periodic(0) || grid_->periodic(D - 1) || grid_->periodic(D / 2))
+    halo_.exchange(as_doubles<NodeMotion, D>(motion_), node_motions);
+}
+
+template <int D>
+void SoilSolver<D>::update_points(double dt) {
+  point_motion_.largest_speed = 0.0;
+  std::size_t failed = 0;
+  for (std::size_t b = 0; b < points_.size(); ++b) {
+    auto& points = points_[b];
+    const BodyConstants& body = constants_[b];
+    const bool wet = body.water_density > 0.0;
+    grid_to_points(*grid_, motion_, options_.kernel, options_.transfer, options_.flip_fraction, dt,
+                   wet, points, point_motion_);
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      const double* g = point_motion_.gradient.data() + p * D * D;
+      double stretch;
+      if constexpr (D == 2) {
+        stretch = (1.0 + g[0]) * (1.0 + g[3]) - g[1] * g[2];
+      } else {
+        stretch = (1.0 + g[0]) * ((1.0 + g[4]) * (1.0 + g[8]) - g[5] * g[7]) -
+                  g[1] * (g[3] * (1.0 + g[8]) - g[5] * g[6]) +
+                  g[2] * (g[3] * g[7] - (1.0 + g[4]) * g[6]);
+      }
+      points.volume[p] *= stretch;
+      if (!wet) continue;
+      const double porosity = 1.0 - points.grain_mass[p] / (body.grain_density * points.volume[p]);
+      points.pore_pressure[p] -=
+          dt * options_.water_bulk_modulus / porosity * point_motion_.flux_divergence[p];
+      if (!(porosity > 0.0)) ++failed;
+    }
+    failed += update_stress(points, 0, points.size(), point_motion_.gradient, *laws_[b],
+                            strain_measure(options_.bodies[b].law), dt);
+  }
+  std::array<double, 2> mine{point_motion_.largest_speed, static_cast<double>(failed)},
+      worst = mine;
+  if (grid_->ranks() > 1)
+    MPI_Allreduce(mine.data(), worst.data(), 2, MPI_DOUBLE, MPI_MAX, grid_->comm());
+  travelled_ += worst[0] * dt / grid_->smallest_spacing();
+  const double too_fast = 10.0 * grid_->smallest_spacing() / dt;
+  if (worst[1] > 0.0 || !(worst[0] < too_fast)) report_bad_point(worst[0], failed);
+}
+
+/// Names the worst point of all ranks and throws.
+template <int D>
+void SoilSolver<D>::report_bad_point(double largest_speed, std::size_t failed) const {
+  std::string problem;
+  for (std::size_t b = 0; b < points_.size() && problem.empty(); ++b) {
+    const auto& points = points_[b];
+    for (std::size_t p = 0; p < points.size() && problem.empty(); ++p) {
+      double speed2 = 0.0;
+      for (int a = 0; a < D; ++a) speed2 += points.velocity[a][p] * points.velocity[a][p];
+      const double porosity =
+          1.0 - points.grain_mass[p] / (constants_[b].grain_density * points.volume[p]);
+      const bool bad_speed = !(std::sqrt(speed2) < 0.99 * largest_speed) || !std::isfinite(speed2);
+      const bool bad_porosity = constants_[b].water_density > 0.0 && !(porosity > 0.0);
+      if (!bad_porosity && !(failed == 0 && bad_speed)) continue;
+      const Point3 x = to_point3(points.position_of(p));
+      problem = fmt::format(
+          "soil {}: {} at ({:.6g}, {:.6g}, {:.6g}) m, t = {:.6g} s (point {}: speed {:.4g} m/s, "
+          "porosity {:.4g}, "
+          "pore pressure {:.4g} Pa)",
+          options_.bodies[b].name,
+          bad_porosity ? "the pores closed (porosity <= 0)" : "the velocity diverged", x[0], x[1],
+          x[2], time_, points.id[p], std::sqrt(speed2), porosity, points.pore_pressure[p]);
+    }
+  }
+  throw_divergence_if_any(grid_->comm(), problem);
+  throw DivergenceError(fmt::format("soil: motion out of range at t = {:.6g} s", time_));
+}
+
+template <int D>
+void SoilSolver<D>::solid_fraction(CellField<D>& fraction) {
+  fraction.fill(0.0);
+  for (std::size_t b = 0; b < points_.size(); ++b)
+    add_solid_fraction(*grid_, points_[b], constants_[b].grain_density, options_.kernel, fraction);
+  const std::array<double*, 1> one{fraction.data()};
+  halo_.add_to_owners(one);
+  fold_cells(*grid_, fraction);
+  halo_.exchange(one);
+}
+
+template <int D>
+void SoilSolver<D>::grain_velocity(FaceVector<D>& velocity) {
+  gather_nodes();
+  velocity.fill(0.0);
+  for (int d = 0; d < D; ++d) {
+    const auto& sums = sums_[static_cast<std::size_t>(d)];
+    for_each(active_.intersected(grid_->owned_faces(d)), [&](const Index<D>& face) {
+      if (sums[face].volume < lightest_face * grid_->cell_volume()) return;
+      const bool wall = !grid_->periodic(d) && (face[d] == 0 || face[d] == grid_->cells()[d]);
+      if (wall && grid_->wall(d, face[d] == 0 ? 0 : 1) != Wall::open) return;
+      velocity[d][face] = sums[face].grain_momentum / sums[face].grain_mass;
+    });
+  }
+  halo_.exchange(velocity);
+}
+
+template <int D>
+typename SoilSolver<D>::Totals SoilSolver<D>::totals() const {
+  std::array<double, 5 + D> mine{};
+  for (std::size_t b = 0; b < points_.size(); ++b) {
+    const auto& points = points_[b];
+    const BodyConstants& body = constants_[b];
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      const double grains = points.grain_mass[p];
+      const double water = (points.volume[p] - grains / body.grain_density) * body.water_density;
+      mine[0] += grains;
+      mine[1] += water;
+      for (int a = 0; a < D; ++a) {
+        const double v = points.velocity[a][p], vw = points.water_velocity[a][p];
+        mine[2] += 0.5 * (grains * v * v + water * vw * vw);
+        mine[static_cast<std::size_t>(5 + a)] += grains * v + water * vw;
+      }
+    }
+    mine[4] += static_cast<double>(points.size());
+  }
+  mine[3] = removed_grain_mass_;
+  std::array<double, 5 + D> all{};
+  MPI_Allreduce(mine.data(), all.data(), 5 + D, MPI_DOUBLE, MPI_SUM, grid_->comm());
+  Totals totals{all[0], all[1], all[2], {}, all[3], static_cast<long long>(all[4])};
+  for (int a = 0; a < D; ++a) totals.momentum[a] = all[static_cast<std::size_t>(5 + a)];
+  return totals;
+}
+
+template class SoilSolver<2>;
+template class SoilSolver<3>;
+
+}  // namespace mudlark

@@ -1,0 +1,99 @@
+#pragma once
+/// The soil: material points on the shared grid, under given loads of the free water.
+#include <memory>
+#include <vector>
+
+#include "grid/halo.hpp"
+#include "materials/soil_model.hpp"
+#include "soil/fluid_load.hpp"
+#include "soil/nodes.hpp"
+#include "soil/options.hpp"
+#include "soil/particles.hpp"
+#include "soil/surface_load.hpp"
+#include "soil/transfer.hpp"
+
+namespace mudlark {
+
+/// Explicit two-phase (u-w: velocities of grains and pore water) or single-phase material point
+/// method with pointwise-implicit drag. NUMERICS A1, A4, A5, C2 (kernels).
+template <int D>
+class SoilSolver {
+ public:
+  /// Throws InputError when the options do not fit together.
+  SoilSolver(const Grid<D>& grid, const SoilOptions& options);
+
+  /// Seeds the points and sets their initial state. Collective.
+  void initialise();
+
+  /// Sends points to their owners, sorts them, and finds where soil is. Collective.
+  void redistribute();
+  /// Largest stable step of `advance` [s]: courant * h / (c + |v|), c the undrained or the
+  /// drag-free compression wave, whichever is faster. Permeability does not enter. Same on all
+  /// ranks.
+  double stable_step() const;
+  /// Opens an outer step [time, time + length]: redistributes and samples the loads at both ends.
+  void begin_step(double time, double length, const FluidLoad<D>* water);
+  /// One step of `dt` [s] inside the outer step. Throws DivergenceError on all ranks with place and
+  /// quantity.
+  void advance(double dt);
+
+  const SoilOptions& options() const { return options_; }
+  std::size_t bodies() const { return points_.size(); }
+  SoilParticles<D>& points(std::size_t body) { return points_[body]; }
+  const SoilParticles<D>& points(std::size_t body) const { return points_[body]; }
+  const BodyConstants& constants(std::size_t body) const { return constants_[body]; }
+  const SoilModel& law(std::size_t body) const { return *laws_[body]; }
+  bool two_phase() const;
+  /// Cells around the soil, with the reach of the kernels; within this rank's local box.
+  const IndexBox<D>& active() const { return active_; }
+
+  /// Grain volume per cell volume [-], from the points, ghosts included. Collective.
+  void solid_fraction(CellField<D>& fraction);
+  /// Velocity of the grains v_s [m/s] on faces, zero where there are none, ghosts included. Collective.
+  void grain_velocity(FaceVector<D>& velocity);
+
+  struct Totals {
+    double grain_mass = 0.0, water_mass = 0.0;  ///< [kg]
+    double kinetic_energy = 0.0;                ///< [J]
+    Vec<D> momentum{};                          ///< [kg m/s]
+    double removed_grain_mass = 0.0;            ///< left through open sides [kg]
+    long long points = 0;
+  };
+  Totals totals() const;  ///< over all ranks; collective
+
+  template <class Archive>
+  void archive(Archive& a) {
+    for (std::size_t b = 0; b < points_.size(); ++b) points_[b].archive(a, options_.bodies[b].name);
+    a.number("soil/removed grain mass", removed_grain_mass_);
+    a.number("soil/time", time_);
+  }
+
+ private:
+  void gather_nodes();
+  void solve_nodes(double dt);
+  void solve_face(const NodeSums& sums, double gravity, double dt, double face_volume,
+                  NodeMotion& motion) const;
+  void update_points(double dt);
+  void report_bad_point(double largest_speed, std::size_t failed) const;
+
+  const Grid<D>* grid_;
+  SoilOptions options_;
+  Halo<D> halo_;
+  std::vector<SoilParticles<D>> points_;
+  std::vector<BodyConstants> constants_;
+  std::vector<std::unique_ptr<SoilModel>> laws_;
+  SurfaceLoads<D> surface_;
+  NodeField<NodeSums, D> sums_;
+  NodeField<NodeMotion, D> motion_;
+  CellField<D> occupied_;
+  PointMotion point_motion_;
+  IndexBox<D> active_{};
+  double time_ = 0.0;
+  double travelled_ = 0.0;  ///< bound on how far any point moved since redistribute(), in cells
+  double removed_grain_mass_ = 0.0;
+};
+
+extern template class SoilSolver<2>;
+extern template class SoilSolver<3>;
+
+}  // namespace mudlark
