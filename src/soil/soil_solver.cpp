@@ -65,7 +65,8 @@ SoilSolver<D>::SoilSolver(const Grid<D>& grid, const SoilOptions& options)
       surface_(grid, options.loads),
       sums_(make_node_field<NodeSums, D>(grid, "soil sums")),
       motion_(make_node_field<NodeMotion, D>(grid, "soil motion")),
-      occupied_(grid, "cells with soil", "1") {
+      occupied_(grid, "cells with soil", "1"),
+      mean_velocity_(grid, "mean grain velocity", "m/s") {
   if (options.transfer == Transfer::apic && options.kernel == Kernel::linear)
     throw InputError(
         "transfer = \"apic\" needs kernel = \"quadratic\" or \"composite\" (the inertia of a "
@@ -164,6 +165,8 @@ template <int D>
 void SoilSolver<D>::begin_step(double time, double length, const FluidLoad<D>* water) {
   redistribute();
   time_ = time;
+  length_ = length;
+  mean_velocity_.fill(0.0);
   surface_.begin_step(time, length, water, active_);
 }
 
@@ -253,6 +256,10 @@ void SoilSolver<D>::solve_nodes(double dt) {
   mirror_motion(*grid_, motion_);
   if (grid_->ranks() > 1 || grid_->periodic(0) || grid_->periodic(D - 1) || grid_->periodic(D / 2))
     halo_.exchange(as_doubles<NodeMotion, D>(motion_), node_motions);
+  for (int d = 0; d < D; ++d)
+    for_each(active_, [&](const Index<D>& face) {
+      mean_velocity_[d][face] += dt / length_ * motion_[static_cast<std::size_t>(d)][face].grain_velocity;
+    });
 }
 
 template <int D>
@@ -323,30 +330,33 @@ void SoilSolver<D>::report_bad_point(double largest_speed, std::size_t failed) c
 }
 
 template <int D>
-void SoilSolver<D>::solid_fraction(CellField<D>& fraction) {
+void SoilSolver<D>::solid_fraction(CellField<D>& fraction, CellField<D>& resistance) {
   fraction.fill(0.0);
-  for (std::size_t b = 0; b < points_.size(); ++b)
-    add_solid_fraction(*grid_, points_[b], constants_[b].grain_density, options_.kernel, fraction);
-  const std::array<double*, 1> one{fraction.data()};
-  halo_.add_to_owners(one);
+  resistance.fill(0.0);
+  for (std::size_t b = 0; b < points_.size(); ++b) {
+    const BodyConstants& body = constants_[b];
+    add_solid_fraction(*grid_, points_[b], body.grain_density, options_.kernel, 1.0, fraction);
+    if (body.water_density == 0.0) continue;
+    const double drag = body.water_viscosity / (body.intrinsic_permeability * (1.0 - body.start_porosity));
+    add_solid_fraction(*grid_, points_[b], body.grain_density, options_.kernel, drag, resistance);
+  }
+  const std::array<double*, 2> both{fraction.data(), resistance.data()};
+  halo_.add_to_owners(both);
   fold_cells(*grid_, fraction);
-  halo_.exchange(one);
+  fold_cells(*grid_, resistance);
+  halo_.exchange(both);
 }
 
 template <int D>
-void SoilSolver<D>::grain_velocity(FaceVector<D>& velocity) {
-  gather_nodes();
-  velocity.fill(0.0);
-  for (int d = 0; d < D; ++d) {
-    const auto& sums = sums_[static_cast<std::size_t>(d)];
-    for_each(active_.intersected(grid_->owned_faces(d)), [&](const Index<D>& face) {
-      if (sums[face].volume < lightest_face * grid_->cell_volume()) return;
-      const bool wall = !grid_->periodic(d) && (face[d] == 0 || face[d] == grid_->cells()[d]);
-      if (wall && grid_->wall(d, face[d] == 0 ? 0 : 1) != Wall::open) return;
-      velocity[d][face] = sums[face].grain_momentum / sums[face].grain_mass;
-    });
+void SoilSolver<D>::set_pore_pressure(const CellField<D>& pressure) {
+  for (std::size_t b = 0; b < points_.size(); ++b) {
+    if (constants_[b].water_density == 0.0) continue;
+    auto& points = points_[b];
+    points.pore_pressure = sample_at_points(*grid_, points, options_.kernel, pressure);
+    if (const auto& excess = options_.bodies[b].initial_pore_pressure)
+      for (std::size_t p = 0; p < points.size(); ++p)
+        points.pore_pressure[p] += (*excess)(to_point3(points.position_of(p)), 0.0);
   }
-  halo_.exchange(velocity);
 }
 
 template <int D>

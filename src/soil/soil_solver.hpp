@@ -47,10 +47,14 @@ class SoilSolver {
   /// Cells around the soil, with the reach of the kernels; within this rank's local box.
   const IndexBox<D>& active() const { return active_; }
 
-  /// Grain volume per cell volume [-], from the points, ghosts included. Collective.
-  void solid_fraction(CellField<D>& fraction);
-  /// Velocity of the grains v_s [m/s] on faces, zero where there are none, ghosts included. Collective.
-  void grain_velocity(FaceVector<D>& velocity);
+  /// Grain volume per cell volume [-], and the Darcy resistance mu/kappa [Pa s/m2] that fades with the grains at the
+  /// rim, from the points, ghosts included. Collective.
+  void solid_fraction(CellField<D>& fraction, CellField<D>& resistance);
+  /// Pore pressure from a cell field (ghosts valid), plus the excess that the case gives. For the start.
+  void set_pore_pressure(const CellField<D>& pressure);
+  /// Velocity of the grains v_s [m/s] on faces, mean over the last outer step; zero where there are none;
+  /// ghosts included. What the bed swept in that step is exactly this motion, elastic waves averaged out.
+  const FaceVector<D>& mean_grain_velocity() const { return mean_velocity_; }
 
   struct Totals {
     double grain_mass = 0.0, water_mass = 0.0;  ///< [kg]
@@ -66,6 +70,7 @@ class SoilSolver {
     for (std::size_t b = 0; b < points_.size(); ++b) points_[b].archive(a, options_.bodies[b].name);
     a.number("soil/removed grain mass", removed_grain_mass_);
     a.number("soil/time", time_);
+    a.faces("soil/mean grain velocity", mean_velocity_);
   }
 
  private:
@@ -86,6 +91,8 @@ class SoilSolver {
   NodeField<NodeSums, D> sums_;
   NodeField<NodeMotion, D> motion_;
   CellField<D> occupied_;
+  FaceVector<D> mean_velocity_;
+  double length_ = 0.0;     ///< of the open outer step [s]
   PointMotion point_motion_;
   IndexBox<D> active_{};
   double time_ = 0.0;

@@ -239,12 +239,12 @@ void gather(const Grid<D>& grid, const NodeField<NodeMotion, D>& nodes, double f
 
 template <int D, class K>
 void add_fraction(const Grid<D>& grid, const SoilParticles<D>& points, double grain_density,
-                  CellField<D>& solid_fraction) {
+                  double weight, CellField<D>& solid_fraction) {
   const Vec<D> per_spacing = inverse(grid.spacing());
   double* values = solid_fraction.data();
   for (std::size_t p = 0; p < points.size(); ++p) {
     const PointSplines<D, K> splines(in_cells(grid, per_spacing, points.position_of(p)));
-    const double share = points.grain_mass[p] / (grain_density * grid.cell_volume());
+    const double share = weight * points.grain_mass[p] / (grain_density * grid.cell_volume());
     splines.template for_each_node<-1>(
         grid, per_spacing, [&](std::ptrdiff_t at, double w, const Vec<D>&, const Vec<D>&) {
           values[at] += w * share;
@@ -287,9 +287,23 @@ void grid_to_points(const Grid<D>& grid, const NodeField<NodeMotion, D>& nodes, 
 
 template <int D>
 void add_solid_fraction(const Grid<D>& grid, const SoilParticles<D>& points, double grain_density,
-                        Kernel kernel, CellField<D>& solid_fraction) {
+                        Kernel kernel, double weight, CellField<D>& solid_fraction) {
   with_kernel(kernel,
-              [&]<class K>(K) { add_fraction<D, K>(grid, points, grain_density, solid_fraction); });
+              [&]<class K>(K) { add_fraction<D, K>(grid, points, grain_density, weight, solid_fraction); });
+}
+
+template <int D>
+std::vector<double> sample_at_points(const Grid<D>& grid, const SoilParticles<D>& points, Kernel kernel,
+                                     const CellField<D>& field) {
+  const Vec<D> per_spacing = inverse(grid.spacing());
+  std::vector<double> values(points.size());
+  with_kernel(kernel, [&]<class K>(K) {
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      const PointSplines<D, K> splines(in_cells(grid, per_spacing, points.position_of(p)));
+      values[p] = sample(grid, splines, per_spacing, &field).value;
+    }
+  });
+  return values;
 }
 
 template void points_to_grid(const Grid<2>&, const SoilParticles<2>&, const BodyConstants&, Kernel,
@@ -300,9 +314,9 @@ template void grid_to_points(const Grid<2>&, const NodeField<NodeMotion, 2>&, Ke
                              double, double, bool, SoilParticles<2>&, PointMotion&);
 template void grid_to_points(const Grid<3>&, const NodeField<NodeMotion, 3>&, Kernel, Transfer,
                              double, double, bool, SoilParticles<3>&, PointMotion&);
-template void add_solid_fraction(const Grid<2>&, const SoilParticles<2>&, double, Kernel,
-                                 CellField<2>&);
-template void add_solid_fraction(const Grid<3>&, const SoilParticles<3>&, double, Kernel,
-                                 CellField<3>&);
+template void add_solid_fraction(const Grid<2>&, const SoilParticles<2>&, double, Kernel, double, CellField<2>&);
+template std::vector<double> sample_at_points(const Grid<2>&, const SoilParticles<2>&, Kernel, const CellField<2>&);
+template void add_solid_fraction(const Grid<3>&, const SoilParticles<3>&, double, Kernel, double, CellField<3>&);
+template std::vector<double> sample_at_points(const Grid<3>&, const SoilParticles<3>&, Kernel, const CellField<3>&);
 
 }  // namespace mudlark

@@ -1,6 +1,6 @@
 #pragma once
 /// Particle-to-grid and grid-to-particle transfers on the staggered grid.
-#include <span>
+#include <vector>
 
 #include "grid/field.hpp"
 #include "soil/nodes.hpp"
@@ -53,10 +53,15 @@ void grid_to_points(const Grid<D>& grid, const NodeField<NodeMotion, D>& nodes, 
                     Transfer transfer, double flip_fraction, double dt, bool pore_water,
                     SoilParticles<D>& points, PointMotion& motion);
 
-/// Adds V_grains / V_cell of the points to the cells around them: the solid fraction [-], and to
-/// each face the grains' share of the volume there. Smooth kernel of the across-axis degree.
+/// Adds `weight` times V_grains / V_cell of the points to the cells around them, with the across-axis spline:
+/// weight 1 gives the solid fraction [-].
 template <int D>
 void add_solid_fraction(const Grid<D>& grid, const SoilParticles<D>& points, double grain_density,
-                        Kernel kernel, CellField<D>& solid_fraction);
+                        Kernel kernel, double weight, CellField<D>& solid_fraction);
+
+/// Value of a cell field (ghosts valid) at each point, with the across-axis spline.
+template <int D>
+std::vector<double> sample_at_points(const Grid<D>& grid, const SoilParticles<D>& points, Kernel kernel,
+                                     const CellField<D>& field);
 
 }  // namespace mudlark

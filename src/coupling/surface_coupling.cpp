@@ -1,0 +1,125 @@
+#include "coupling/surface_coupling.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mudlark {
+namespace {
+
+/// Cells with less than this share of the soil's solid fraction count as open water (or air).
+constexpr double open_share = 0.5;
+/// Porosity that the water solver never goes below, so that squeezed cells keep an equation.
+constexpr double least_porosity = 0.05;
+
+}  // namespace
+
+template <int D>
+SurfaceCoupling<D>::SurfaceCoupling(const Grid<D>& grid, const CouplingOptions& options, const FlowOptions& flow,
+                                    const SoilSolver<D>& soil)
+    : grid_(&grid),
+      options_(options),
+      halo_(grid),
+      extension_(grid),
+      fraction_(grid, "solid fraction", "1"),
+      resistance_(grid, "resistance", "Pa s/m2"),
+      open_(grid, "open", "1"),
+      wet_(grid, "wet", "1"),
+      water_density_(flow.density) {
+  const SoilOptions& soils = soil.options();
+  full_fraction_ = 1.0;
+  impedance_ = 0.0;
+  for (std::size_t b = 0; b < soils.bodies.size(); ++b) {
+    const SoilBody& body = soils.bodies[b];
+    const double n = body.porosity, bulk = soils.water_bulk_modulus / n;
+    const bool wet = body.pore_water == PoreWater::two_phase;
+    const double density = (1.0 - n) * body.grain_density + (wet ? n * soils.water_density : 0.0);
+    const double modulus = soil.law(b).wave_modulus({}, {}) + (wet ? bulk : 0.0);
+    full_fraction_ = std::min(full_fraction_, 1.0 - n);
+    const double impedance = std::sqrt(density * modulus);
+    impedance_ = impedance_ == 0.0 ? impedance : std::min(impedance_, impedance);
+  }
+}
+
+template <int D>
+double SurfaceCoupling<D>::load_share(double time) const {
+  if (options_.mudline == Mudline::consistent || time >= options_.ramp) return 1.0;
+  return 0.5 * (1.0 - std::cos(3.14159265358979323846 * time / options_.ramp));
+}
+
+template <int D>
+void SurfaceCoupling<D>::map_soil_to_grid(SoilSolver<D>& soil, const PorousMedium<D>& fixed, PorousMedium<D>& medium) {
+  soil.solid_fraction(fraction_, resistance_);
+  for_each(grid_->local(), [&](const Index<D>& cell) {
+    medium.porosity[cell] = std::max(least_porosity, fixed.porosity[cell] - fraction_[cell]);
+  });
+  const FaceVector<D>& velocity = soil.mean_grain_velocity();
+  for (int a = 0; a < D; ++a) {
+    IndexBox<D> faces = grid_->local();
+    ++faces.lower[a];
+    for_each(faces, [&](const Index<D>& face) {
+      const double solid = 0.5 * (fraction_[face.shifted(a, -1)] + fraction_[face]);
+      medium.grain_velocity[a][face] = velocity[a][face];
+      medium.grain_flux[a][face] = solid * velocity[a][face];
+      const double resistance = 0.5 * (resistance_[face.shifted(a, -1)] + resistance_[face]);
+      medium.linear_drag[a][face] = fixed.linear_drag[a][face] + resistance;
+      medium.quadratic_drag[a][face] = fixed.quadratic_drag[a][face];
+    });
+  }
+  set_compliance(medium);
+}
+
+/// A bed of impedance Z = rho c answers a rise of pressure dp with the velocity dp/Z. Given to the pressure solve as
+/// volume per volume, |grad phi| / (phi_0 Z), it makes the exchange of loads and motion stable for any step, where
+/// loose coupling needs dt > 2 rho_w H / (rho c) (added mass, NUMERICS C3).
+template <int D>
+void SurfaceCoupling<D>::set_compliance(PorousMedium<D>& medium) {
+  medium.give_way.fill(0.0);
+  if (options_.impedance_factor == 0.0) return;
+  for_each(grid_->owned(), [&](const Index<D>& cell) {
+    double steepness2 = 0.0;
+    for (int a = 0; a < D; ++a) {
+      const double below = fraction_[cell.shifted(a, -1)], above = fraction_[cell.shifted(a, 1)];
+      const bool at_wall = !grid_->periodic(a) && (cell[a] == 0 || cell[a] == grid_->cells()[a] - 1);
+      const double slope = at_wall ? 0.0 : 0.5 * (above - below) / grid_->spacing()[a];
+      steepness2 += slope * slope;
+    }
+    medium.give_way[cell] = options_.impedance_factor * std::sqrt(steepness2) / (full_fraction_ * impedance_);
+  });
+  halo_.exchange(medium.give_way);
+}
+
+template <int D>
+void SurfaceCoupling<D>::extended_pressure(const FlowSolver<D>& flow, const SoilSolver<D>& soil, double share,
+                                           CellField<D>& pressure) {
+  for_each(grid_->owned(), [&](const Index<D>& cell) {
+    const bool open = fraction_[cell] < open_share * full_fraction_;
+    const bool wet = flow.saturation()[cell] >= 0.5;
+    open_[cell] = open ? 1.0 : 0.0;
+    wet_[cell] = open && wet ? share : 0.0;
+    pressure[cell] = open && wet ? share * flow.pressure()[cell] : 0.0;
+  });
+  extension_.extend(open_, wet_, water_density_, soil.active(), pressure);
+}
+
+template <int D>
+void SurfaceCoupling<D>::map_flow_to_soil(const FlowSolver<D>& flow, const SoilSolver<D>& soil, double end_of_step,
+                                          FluidLoad<D>& load) {
+  load.outlet = options_.mudline == Mudline::consistent  ? PoreOutlet::at_water_pressure
+                : options_.mudline == Mudline::load_only ? PoreOutlet::at_zero_pressure
+                                                         : PoreOutlet::sealed;
+  load.pressure_begin.swap(load.pressure_end);
+  extended_pressure(flow, soil, load_share(end_of_step), load.pressure_end);
+  if (options_.pressure_in_time == PressureInTime::constant) load.pressure_begin.copy_values_from(load.pressure_end);
+}
+
+template <int D>
+void SurfaceCoupling<D>::initialise(const FlowSolver<D>& flow, SoilSolver<D>& soil, FluidLoad<D>& load) {
+  map_flow_to_soil(flow, soil, 0.0, load);
+  load.pressure_begin.copy_values_from(load.pressure_end);
+  if (options_.mudline == Mudline::consistent) soil.set_pore_pressure(load.pressure_end);
+}
+
+template class SurfaceCoupling<2>;
+template class SurfaceCoupling<3>;
+
+}  // namespace mudlark

@@ -1,0 +1,76 @@
+#pragma once
+/// Simulated time: steps that end exactly where something is due.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "run/options.hpp"
+
+namespace mudlark {
+
+class Clock {
+ public:
+  /// Things fall due every `periods` seconds, and at `times`; `end` closes the run.
+  Clock(const TimeOptions& options, std::vector<double> periods)
+      : options_(options), periods_(std::move(periods)) {
+    if (options.output_every > 0.0) periods_.push_back(options.output_every);
+  }
+
+  double time() const { return time_; }
+  std::int64_t step() const { return step_; }
+  bool finished() const { return time_ >= options_.end; }
+
+  /// Is something that repeats every `period` due now? Period 0: always.
+  static bool due(double time, double period) {
+    if (period <= 0.0) return true;
+    const double count = time / period;
+    return std::abs(count - std::round(count)) < 1e-9 * std::max(1.0, count);
+  }
+  bool output_due() const {
+    if (finished() || time_ == 0.0) return true;
+    if (options_.output_every > 0.0 && due(time_, options_.output_every)) return true;
+    return std::any_of(options_.output_at.begin(), options_.output_at.end(), [&](double t) { return t == time_; });
+  }
+
+  /// Next time at which something is due [s].
+  double next_event() const {
+    double next = options_.end;
+    for (const double period : periods_) {
+      const double count = time_ / period;
+      const double passed = std::floor(count + 1e-9 * std::max(1.0, count));
+      next = std::min(next, (passed + 1.0) * period);
+    }
+    for (const double t : options_.output_at)
+      if (t > time_) next = std::min(next, t);
+    return next;
+  }
+  /// Step no longer than `stable`, so that equal steps reach the next event exactly [s].
+  double choose_step(double stable) const {
+    double limit = std::min(stable, options_.max_step.value_or(std::numeric_limits<double>::max()));
+    if (options_.step) limit = *options_.step;
+    const double remaining = next_event() - time_;
+    return remaining / std::max(1.0, std::ceil(remaining / limit * (1.0 - 1e-12)));
+  }
+  void advance(double dt) {
+    const double event = next_event();
+    time_ += dt;
+    if (std::abs(time_ - event) < 1e-9 * dt) time_ = event;
+    ++step_;
+  }
+
+  template <class Archive>
+  void archive(Archive& a) {
+    a.number("clock/time", time_);
+    a.integer("clock/step", step_);
+  }
+
+ private:
+  TimeOptions options_;
+  std::vector<double> periods_;
+  double time_ = 0.0;
+  std::int64_t step_ = 0;
+};
+
+}  // namespace mudlark
