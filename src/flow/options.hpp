@@ -20,13 +20,13 @@ enum class DragLaw { darcy, darcy_forchheimer, ergun, van_gent };
 struct PorousGround {
   std::string name;
   Shape shape;
-  double porosity = 0.4;                 ///< [-]
+  double porosity = 0.4;  ///< [-]
   DragLaw drag = DragLaw::darcy;
-  double intrinsic_permeability = 0.0;   ///< [m2], darcy laws
-  double forchheimer = 0.0;              ///< B of (A + B|w|) w [Pa s2/m3 per ... i.e. kg/m4], darcy_forchheimer
-  double grain_size = 0.0;               ///< [m], ergun and van_gent
-  double alpha = 1000.0, beta = 1.1;     ///< van Gent (1995) coefficients [-]
-  double keulegan_carpenter = 0.0;       ///< KC [-]; 0: steady flow, no KC term
+  double intrinsic_permeability = 0.0;  ///< [m2], darcy laws
+  double forchheimer = 0.0;  ///< B of (A + B|w|) w [Pa s2/m3 per ... i.e. kg/m4], darcy_forchheimer
+  double grain_size = 0.0;   ///< [m], ergun and van_gent
+  double alpha = 1000.0, beta = 1.1;  ///< van Gent (1995) coefficients [-]
+  double keulegan_carpenter = 0.0;    ///< KC [-]; 0: steady flow, no KC term
 };
 
 struct FlowOptions {
@@ -34,9 +34,10 @@ struct FlowOptions {
   double viscosity = 1.002e-3;  ///< dynamic, [Pa s]
   std::vector<WaterBody> bodies;
   std::vector<PorousGround> porous;
-  double courant = 0.4;               ///< of the interface's Courant number bound (NUMERICS B2)
-  double pressure_tolerance = 1e-10;  ///< bound on the largest residual divergence times the step [-]
-  bool advection = true;              ///< momentum advection (off: Stokes flow, for tests)
+  double courant = 0.4;  ///< of the interface's Courant number bound (NUMERICS B2)
+  double pressure_tolerance =
+      1e-10;              ///< bound on the largest residual divergence times the step [-]
+  bool advection = true;  ///< momentum advection (off: Stokes flow, for tests)
 };
 
 }  // namespace mudlark

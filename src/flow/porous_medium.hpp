@@ -1,6 +1,6 @@
 #pragma once
-/// All that the flow knows of the ground: a fixed mound fills this from the case file, moving soil from
-/// coupling/. (Architecture, "the central idea".)
+/// All that the flow knows of the ground: a fixed mound fills this from the case file, moving soil
+/// from coupling/. (Architecture, "the central idea".)
 #include "grid/field.hpp"
 
 namespace mudlark {
@@ -9,13 +9,14 @@ template <int D>
 struct PorousMedium {
   explicit PorousMedium(const Grid<D>& grid);
 
-  CellField<D> porosity;        ///< [-], 1 in open water; what the medium's grains leave free *now*
-  FaceVector<D> grain_flux;     ///< (1-n) v_s [m/s], volume flux of the grains through faces; 0 if fixed
-  FaceVector<D> grain_velocity; ///< v_s [m/s]
-  FaceVector<D> linear_drag;    ///< A of the pressure loss (A + B|w|) w, w = n(v - v_s) [Pa s/m2]
-  FaceVector<D> quadratic_drag; ///< B [Pa s2/m3]
-  CellField<D> give_way;        ///< volume rate per volume and pressure rise over the step [1/(Pa s)]:
-                                ///< how easily the ground gives way; 0 for rigid ground
+  CellField<D> porosity;  ///< [-], 1 in open water; what the medium's grains leave free *now*
+  FaceVector<D>
+      grain_flux;  ///< (1-n) v_s [m/s], volume flux of the grains through faces; 0 if fixed
+  FaceVector<D> grain_velocity;  ///< v_s [m/s]
+  FaceVector<D> linear_drag;     ///< A of the pressure loss (A + B|w|) w, w = n(v - v_s) [Pa s/m2]
+  FaceVector<D> quadratic_drag;  ///< B [Pa s2/m3]
+  CellField<D> give_way;  ///< volume rate per volume and pressure rise over the step [1/(Pa s)]:
+                          ///< how easily the ground gives way; 0 for rigid ground
 };
 
 }  // namespace mudlark

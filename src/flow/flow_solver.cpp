@@ -1,0 +1,340 @@
+#include "flow/flow_solver.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/errors.hpp"
+#include "flow/flow_checks.hpp"
+#include "numerics/loops.hpp"
+#include "parallel/collective_error.hpp"
+
+namespace mudlark {
+namespace {
+
+/// Share of the drift between transported and given porosity that one step takes back (NUMERICS C2
+/// step 6).
+constexpr double drift_feedback = 0.1;
+/// W may leave 0..theta by no more than this: round-off of the sweeps.
+constexpr double bound_tolerance = 1e-12;
+
+}  // namespace
+
+template <int D>
+FlowSolver<D>::FlowSolver(const Grid<D>& grid, const FlowOptions& options)
+    : grid_(&grid),
+      options_(options),
+      ghosts_(grid),
+      interface_(grid),
+      momentum_(grid),
+      predictor_(grid, options),
+      projection_(grid, options),
+      extension_(grid),
+      water_(grid, "water fraction", "1"),
+      porosity_(grid, "porosity", "1", 1.0),
+      pressure_(grid, "pressure", "Pa"),
+      saturation_(grid, "saturation", "1"),
+      velocity_(grid, "velocity", "m/s"),
+      old_water_(grid, "old water fraction", "1"),
+      new_porosity_(grid, "new porosity", "1", 1.0),
+      target_(grid, "target divergence", "1/s"),
+      no_storage_(grid, "storage", "1/(Pa s)"),
+      flux_(grid, "flux", "m/s"),
+      carried_(grid, "carried water", "1"),
+      mobility_(grid, "mobility", "m2 s/kg") {}
+
+/// Ghosts and what follows from W, theta and v.
+template <int D>
+void FlowSolver<D>::update_derived() {
+  ghosts_.update(water_);
+  ghosts_.update(porosity_);
+  ghosts_.update(pressure_);
+  ghosts_.update_velocity(velocity_);
+  const double* w = water_.data();
+  const double* theta = porosity_.data();
+  double* alpha = saturation_.data();
+  for_each_offset(*grid_, grid_->local(),
+                  [&](std::ptrdiff_t at) { alpha[at] = w[at] / theta[at]; });
+}
+
+template <int D>
+void FlowSolver<D>::fill_with_bodies() {
+  const Grid<D>& grid = *grid_;
+  const Vec<D> half = 0.5 * grid.spacing();
+  for_each(grid.owned(), [&](const Index<D>& cell) {
+    const Vec<D> centre = grid.cell_centre(cell);
+    double share = 0.0;
+    for (const WaterBody& body : options_.bodies)
+      share += fraction_inside(body.shape, to_point3(centre - half), to_point3(centre + half), D);
+    water_[cell] = porosity_[cell] * std::min(share, 1.0);
+  });
+  for (int axis = 0; axis < D; ++axis)
+    for_each(grid.owned_faces(axis), [&](const Index<D>& face) {
+      const Vec<D> centre = grid.face_centre(axis, face);
+      for (const WaterBody& body : options_.bodies) {
+        // A face belongs to a body that reaches into one of its cells.
+        const double touched =
+            fraction_inside(body.shape, to_point3(centre - half), to_point3(centre + half), D);
+        const auto component = static_cast<std::size_t>(D == 2 && axis == 1 ? 2 : axis);
+        if (touched > 0.0) velocity_[axis][face] = body.velocity[component](to_point3(centre), 0.0);
+      }
+    });
+}
+
+template <int D>
+void FlowSolver<D>::initialise(const PorousMedium<D>& medium) {
+  porosity_.copy_values_from(medium.porosity);
+  fill_with_bodies();
+  update_derived();
+  initial_volume_ = ledger().present;
+  outflow_ = 0.0;
+  step_ = 0;
+  projection_.find_surface(water_, porosity_, saturation_, interface_);
+  project_start(medium);
+}
+
+/// First the given velocity is made free of divergence (its pressure is an impulse and is thrown
+/// away), then the pressure at rest follows from the velocity that gravity alone would give in one
+/// second.
+template <int D>
+void FlowSolver<D>::project_start(const PorousMedium<D>& medium) {
+  const Grid<D>& grid = *grid_;
+  find_target(medium, 0.0);
+  for (int a = 0; a < D; ++a) mobility_[a].fill(1.0 / options_.density);
+  if (max_speed().speed > 0.0) {
+    last_solve_ = projection_.project(porosity_, mobility_, target_, no_storage_, pressure_,
+                                      velocity_, options_.pressure_tolerance);
+    pressure_.fill(0.0);
+  }
+  extension_.extend(projection_.unknown(), water_, porosity_, velocity_);
+  double strongest = 0.0;
+  for (int a = 0; a < D; ++a) {
+    strongest = std::max(strongest, std::abs(grid.gravity()[a]) / grid.spacing()[a]);
+    flux_[a].fill(grid.gravity()[a]);
+  }
+  for (int a = 0; a < D; ++a) {  // no flow through closed walls
+    for (int side = 0; side < 2; ++side)
+      if (grid.touches(a, side) && grid.wall(a, side) != Wall::open)
+        zero_wall(grid, a, side, flux_[a]);
+  }
+  target_.fill(0.0);
+  last_solve_ = projection_.project(porosity_, mobility_, target_, no_storage_, pressure_, flux_,
+                                    std::max(1e-13 * strongest, 1e-300));
+}
+
+template <int D>
+void FlowSolver<D>::find_flux() {
+  const double* theta = porosity_.data();
+  for (int a = 0; a < D; ++a) {
+    const std::ptrdiff_t s = grid_->stride(a);
+    const double* v = velocity_[a].data();
+    double* u = flux_[a].data();
+    for_each_offset(*grid_, bounding_faces(*grid_, a),
+                    [&](std::ptrdiff_t at) { u[at] = 0.5 * (theta[at] + theta[at - s]) * v[at]; });
+  }
+}
+
+/// Divergence that the water's flux must have: minus that of the grains, plus the share of the
+/// drift between the transported porosity and the medium's that is taken back.
+template <int D>
+void FlowSolver<D>::find_target(const PorousMedium<D>& medium, double dt) {
+  const Grid<D>& grid = *grid_;
+  const double* theta = porosity_.data();
+  const double* given = medium.porosity.data();
+  double* target = target_.data();
+  for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) {
+    const double share = given[at] < 1.0 ? drift_feedback : 1.0;
+    target[at] = dt > 0.0 ? share * (theta[at] - given[at]) / dt : 0.0;
+  });
+  for (int a = 0; a < D; ++a) {
+    const std::ptrdiff_t s = grid.stride(a);
+    const double inverse = 1.0 / grid.spacing()[a];
+    const double* grains = medium.grain_flux[a].data();
+    for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) {
+      target[at] -= (grains[at + s] - grains[at]) * inverse;
+    });
+  }
+}
+
+/// Water, porosity and momentum over dt with the present velocity. Cells without a pressure unknown
+/// take the medium's porosity as it is: there the dilation term is zero, so nothing is lost or
+/// gained.
+template <int D>
+void FlowSolver<D>::transport(const PorousMedium<D>& medium, double dt) {
+  const Grid<D>& grid = *grid_;
+  find_flux();
+  old_water_.copy_values_from(water_);
+  interface_.sweep(water_, porosity_, flux_, dt, step_);
+  move_porosity(grid, porosity_, flux_, dt, new_porosity_);
+  const double* w = old_water_.data();
+  const double* theta = porosity_.data();
+  const double* given = medium.porosity.data();
+  double* moved = new_porosity_.data();
+  for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) {
+    if (!InterfaceAdvection<D>::dilates(w[at], theta[at])) moved[at] = given[at];
+  });
+  interface_.follow_porosity(water_, porosity_, new_porosity_);
+  check_bounds();
+  add_outflow();
+  ghosts_.update(water_);
+  ghosts_.update(porosity_);
+  carried_.copy_values_from(interface_.water_flux());
+  ghosts_.exchange(carried_);
+  if (options_.advection) momentum_.advance(old_water_, water_, porosity_, carried_, velocity_);
+}
+
+template <int D>
+void FlowSolver<D>::advance(const PorousMedium<D>& medium, double dt) {
+  check_step(dt);
+  transport(medium, dt);
+  update_derived();
+  projection_.find_surface(water_, porosity_, saturation_, interface_);
+  predictor_.advance(medium, porosity_, dt, velocity_, mobility_);
+  find_target(medium, dt);
+  last_solve_ = projection_.project(porosity_, mobility_, target_, medium.give_way, pressure_,
+                                    velocity_, options_.pressure_tolerance / dt);
+  ghosts_.update_velocity(velocity_);
+  extension_.extend(projection_.unknown(), water_, porosity_, velocity_);
+  check_finite();
+  step_ += 1;
+}
+
+template <int D>
+void FlowSolver<D>::add_outflow() {
+  const Grid<D>& grid = *grid_;
+  double volume = 0.0;
+  for (int axis = 0; axis < D; ++axis)
+    for (int side = 0; side < 2; ++side) {
+      if (!grid.touches(axis, side) || grid.wall(axis, side) != Wall::open) continue;
+      const double* through = interface_.water_flux()[axis].data();
+      for_each_offset(grid, wall_faces(grid, axis, side),
+                      [&](std::ptrdiff_t at) { volume += side == 0 ? -through[at] : through[at]; });
+    }
+  outflow_ += sum_over_ranks(grid, volume) * grid.cell_volume();
+}
+
+/// Largest of sum of inflow and sum of outflow per pore volume of a cell [1/s]; only fluxes that
+/// can carry something count: all of them in cells with a pressure, else those whose donor holds
+/// water.
+template <int D>
+double FlowSolver<D>::courant_rate() const {
+  const Grid<D>& grid = *grid_;
+  const double* w = water_.data();
+  const double* theta = porosity_.data();
+  double fastest = 0.0;
+  for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) {
+    const bool all = InterfaceAdvection<D>::dilates(w[at], theta[at]), wet = w[at] > 0.0;
+    double in = 0.0, out = 0.0;
+    for (int axis = 0; axis < D; ++axis) {
+      const std::ptrdiff_t s = grid.stride(axis);
+      const double inverse = 1.0 / grid.spacing()[axis];
+      const double* v = velocity_[axis].data();
+      const double lower = 0.5 * (theta[at] + theta[at - s]) * v[at] * inverse;
+      const double upper = 0.5 * (theta[at] + theta[at + s]) * v[at + s] * inverse;
+      if (lower > 0.0 && (all || w[at - s] > 0.0)) in += lower;
+      if (upper < 0.0 && (all || w[at + s] > 0.0)) in -= upper;
+      if (wet) out += std::max(-lower, 0.0) + std::max(upper, 0.0);
+    }
+    fastest = std::max(fastest, std::max(in, out) / theta[at]);
+  });
+  return max_over_ranks(grid, fastest);
+}
+
+template <int D>
+double FlowSolver<D>::stable_step(const PorousMedium<D>&) const {
+  const Grid<D>& grid = *grid_;
+  const double h = grid.smallest_spacing();
+  double step = options_.courant / std::max(courant_rate(), 1e-300);
+  const double gravity = norm(grid.gravity());
+  if (gravity > 0.0)
+    step = std::min(step, 2.0 * options_.courant * std::sqrt(h / (std::numbers::pi * gravity)));
+  if (options_.viscosity > 0.0)
+    step = std::min(step, h * h * options_.density / (6.0 * options_.viscosity));
+  return step;
+}
+
+template <int D>
+void FlowSolver<D>::check_step(double dt) const {
+  const double rate = courant_rate();
+  if (rate * dt > 0.5 + 1e-9) {
+    const FastestPlace<D> fastest = max_speed();
+    throw DivergenceError(
+        fmt::format("The water's step of {:.4g} s is too large: at most {:.4g} s keep the surface "
+                    "bounded (fastest water {:.4g} m/s at {}). Use a smaller step.",
+                    dt, 0.5 / rate, fastest.speed, place_text(fastest.position)));
+  }
+}
+
+template <int D>
+void FlowSolver<D>::check_bounds() const {
+  const Grid<D>& grid = *grid_;
+  const double* w = water_.data();
+  const double* theta = porosity_.data();
+  double worst = bound_tolerance;
+  std::ptrdiff_t where = -1;
+  for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) {
+    const double beyond = std::max(-w[at], w[at] - theta[at]);
+    if (beyond > worst || std::isnan(beyond)) worst = beyond, where = at;
+  });
+  std::string problem;
+  if (where >= 0) {
+    const Vec<D> position = place_of(grid, where);
+    problem =
+        fmt::format("The water fraction left its bounds at {}: {:.17g} in a porosity of {:.17g}.",
+                    place_text(position), w[where], theta[where]);
+  }
+  throw_divergence_if_any(grid.comm(), problem);
+}
+
+template <int D>
+void FlowSolver<D>::check_finite() const {
+  std::string problem =
+      not_finite(*grid_, grid_->owned(), pressure_.data(), "pressure of the water");
+  for (int axis = 0; axis < D && problem.empty(); ++axis)
+    problem = not_finite(*grid_, grid_->owned(), velocity_[axis].data(), "velocity of the water");
+  throw_divergence_if_any(grid_->comm(), problem);
+}
+
+template <int D>
+WaterLedger FlowSolver<D>::ledger() const {
+  double volume = 0.0;
+  const double* w = water_.data();
+  for_each_offset(*grid_, grid_->owned(), [&](std::ptrdiff_t at) { volume += w[at]; });
+  return {initial_volume_, outflow_, sum_over_ranks(*grid_, volume) * grid_->cell_volume()};
+}
+
+template <int D>
+double FlowSolver<D>::kinetic_energy() const {
+  return mudlark::kinetic_energy(*grid_, water_, velocity_, options_.density);
+}
+template <int D>
+FastestPlace<D> FlowSolver<D>::max_speed() const {
+  Vec<D> position;
+  const double speed = fastest_water(*grid_, water_, velocity_, position);
+  return {speed, position};
+}
+template <int D>
+double FlowSolver<D>::surface_height(const Vec<D>& position) const {
+  return mudlark::surface_height(*grid_, saturation_, position);
+}
+template <int D>
+double FlowSolver<D>::front() const {
+  return water_front(*grid_, saturation_);
+}
+template <int D>
+double FlowSolver<D>::pressure_at(const Vec<D>& position) const {
+  return interpolate(*grid_, pressure_.data(), -1, position);
+}
+template <int D>
+Vec<D> FlowSolver<D>::velocity_at(const Vec<D>& position) const {
+  Vec<D> v;
+  for (int a = 0; a < D; ++a) v[a] = interpolate(*grid_, velocity_[a].data(), a, position);
+  return v;
+}
+
+template class FlowSolver<2>;
+template class FlowSolver<3>;
+
+}  // namespace mudlark

@@ -1,0 +1,125 @@
+#pragma once
+/// Free-surface flow of water through open space and porous ground: the incompressible
+/// Navier-Stokes equations averaged over the pores (VANS), with the interface by geometric volume
+/// of fluid.
+///
+/// One step t -> t + dt (docs/methods/free-surface-flow.md):
+///   1. the present velocity, free of divergence, moves water, porosity and momentum;
+///   2. gravity, viscosity and drag act;
+///   3. pressure makes the velocity free of divergence again on the new water;
+///   4. the velocity is extended beyond the surface.
+/// So at the end of a step surface, velocity and pressure belong to the same time, and the bound
+/// that stable_step() gives is exact for the transport that follows.
+#include <cstdint>
+
+#include "flow/fixed_ground.hpp"
+#include "flow/options.hpp"
+#include "flow/porous_medium.hpp"
+#include "flow/predictor.hpp"
+#include "flow/projection.hpp"
+#include "numerics/interface_advection.hpp"
+#include "numerics/momentum_transport.hpp"
+#include "numerics/velocity_extension.hpp"
+
+namespace mudlark {
+
+/// Volume of the water since the start; present = initial - outflow to round-off [m^D].
+struct WaterLedger {
+  double initial = 0.0, outflow = 0.0, present = 0.0;
+};
+
+template <int D>
+struct FastestPlace {
+  double speed = 0.0;  ///< [m/s]
+  Vec<D> position;     ///< cell centre [m]
+};
+
+template <int D>
+class FlowSolver {
+ public:
+  FlowSolver(const Grid<D>& grid, const FlowOptions& options);
+
+  /// Water W = theta * share of the cell inside the bodies (exact for boxes), their velocity made
+  /// free of divergence, and the pressure that holds the water at rest.
+  void initialise(const PorousMedium<D>& medium);
+
+  /// Largest step that keeps the transport bounded, the viscosity stable and surface waves resolved
+  /// [s] (NUMERICS B2, B5). The same on all ranks.
+  double stable_step(const PorousMedium<D>& medium) const;
+
+  /// One step of dt [s]. Throws DivergenceError (on all ranks) when dt is too large for the
+  /// velocity, when a bound is broken, when the pressure does not converge or when a number is no
+  /// longer finite.
+  void advance(const PorousMedium<D>& medium, double dt);
+
+  const CellField<D>& pressure() const { return pressure_; }      ///< [Pa], 0 in air
+  const CellField<D>& saturation() const { return saturation_; }  ///< alpha = W / theta [-]
+  const CellField<D>& water_fraction() const {
+    return water_;
+  }  ///< W, water volume per cell volume [-]
+  const CellField<D>& porosity() const {
+    return porosity_;
+  }  ///< theta as transported with the water [-]
+  const FaceVector<D>& velocity() const { return velocity_; }  ///< interstitial [m/s]
+  double density() const { return options_.density; }          ///< [kg/m3]
+
+  WaterLedger ledger() const;
+  double kinetic_energy() const;      ///< [J], per metre in 2D
+  FastestPlace<D> max_speed() const;  ///< among the faces that touch water
+  /// Height of the topmost surface in the column of cells through a position (its vertical entry is
+  /// ignored); the domain's bottom where there is no water. Collective.
+  double surface_height(const Vec<D>& position) const;
+  /// Largest x that water reaches; the domain's lower end without water. Collective.
+  double front() const;
+  /// Values at a position by linear interpolation; zero outside the domain. Collective.
+  double pressure_at(const Vec<D>& position) const;
+  Vec<D> velocity_at(const Vec<D>& position) const;
+  const SolveReport& last_solve() const { return last_solve_; }
+
+  /// The whole state: a run that goes on from it continues bit for bit.
+  template <class Archive>
+  void archive(Archive& a) {
+    a.integer("flow step", step_);
+    a.number("initial water", initial_volume_);
+    a.number("water outflow", outflow_);
+    a.cells("water fraction", water_);
+    a.cells("flow porosity", porosity_);
+    a.cells("flow pressure", pressure_);
+    a.faces("flow velocity", velocity_);
+    update_derived();
+  }
+
+ private:
+  void update_derived();
+  void fill_with_bodies();
+  void transport(const PorousMedium<D>& medium, double dt);
+  void find_flux();
+  void find_target(const PorousMedium<D>& medium, double dt);
+  void add_outflow();
+  void project_start(const PorousMedium<D>& medium);
+  void check_bounds() const;
+  void check_finite() const;
+  double courant_rate() const;
+  void check_step(double dt) const;
+
+  const Grid<D>* grid_;
+  FlowOptions options_;
+  Ghosts<D> ghosts_;
+  InterfaceAdvection<D> interface_;
+  MomentumTransport<D> momentum_;
+  Predictor<D> predictor_;
+  Projection<D> projection_;
+  VelocityExtension<D> extension_;
+  CellField<D> water_, porosity_, pressure_, saturation_;
+  FaceVector<D> velocity_;
+  CellField<D> old_water_, new_porosity_, target_, no_storage_;
+  FaceVector<D> flux_, carried_, mobility_;
+  double initial_volume_ = 0.0, outflow_ = 0.0;
+  std::int64_t step_ = 0;
+  SolveReport last_solve_;
+};
+
+extern template class FlowSolver<2>;
+extern template class FlowSolver<3>;
+
+}  // namespace mudlark

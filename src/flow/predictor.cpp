@@ -1,0 +1,118 @@
+#include "flow/predictor.hpp"
+
+#include <cmath>
+
+#include "numerics/loops.hpp"
+
+namespace mudlark {
+
+template <int D>
+Predictor<D>::Predictor(const Grid<D>& grid, const FlowOptions& options)
+    : grid_(&grid),
+      density_(options.density),
+      viscosity_(options.viscosity),
+      acceleration_(grid, "viscous acceleration", "m/s2") {}
+
+/// (1/theta_f) div(theta nu grad v) of one component: the Brinkman term of the porous flow
+/// (NUMERICS B1) without the transposed gradient, which vanishes for constant theta and viscosity.
+template <int D>
+void Predictor<D>::find_viscous_acceleration(int component, const double* porosity,
+                                             const double* velocity, double* out) const {
+  const Grid<D>& grid = *grid_;
+  const double nu = viscosity_ / density_;
+  const std::ptrdiff_t sa = grid.stride(component);
+  for_each_offset(grid, bounding_faces(grid, component), [&](std::ptrdiff_t at) {
+    double sum = 0.0;
+    for (int axis = 0; axis < D; ++axis) {
+      const std::ptrdiff_t s = grid.stride(axis);
+      double below, above;  // porosity where the momentum passes
+      if (axis == component) {
+        below = porosity[at - s];
+        above = porosity[at];
+      } else {
+        const double middle = porosity[at] + porosity[at - sa];
+        below = 0.25 * (middle + porosity[at - s] + porosity[at - s - sa]);
+        above = 0.25 * (middle + porosity[at + s] + porosity[at + s - sa]);
+      }
+      const double h = grid.spacing()[axis];
+      sum +=
+          (above * (velocity[at + s] - velocity[at]) - below * (velocity[at] - velocity[at - s])) /
+          (h * h);
+    }
+    out[at] = nu * sum / (0.5 * (porosity[at] + porosity[at - sa]));
+  });
+}
+
+namespace {
+
+/// Square of the seepage velocity w = theta (v - v_s) at a face; other components from their four
+/// neighbours.
+template <int D>
+double seepage_squared(const Grid<D>& grid, int component, const FaceVector<D>& velocity,
+                       const FaceVector<D>& grains, double porosity, std::ptrdiff_t at) {
+  double square = 0.0;
+  const std::ptrdiff_t sa = grid.stride(component);
+  for (int axis = 0; axis < D; ++axis) {
+    const double* v = velocity[axis].data();
+    const double* g = grains[axis].data();
+    double slip = v[at] - g[at];
+    if (axis != component) {
+      const std::ptrdiff_t s = grid.stride(axis);
+      slip += v[at - sa] - g[at - sa] + v[at + s] - g[at + s] + v[at + s - sa] - g[at + s - sa];
+      slip *= 0.25;
+    }
+    square += slip * slip;
+  }
+  return square * porosity * porosity;
+}
+
+}  // namespace
+
+template <int D>
+void Predictor<D>::advance(const PorousMedium<D>& medium, const CellField<D>& porosity, double dt,
+                           FaceVector<D>& velocity, FaceVector<D>& mobility) {
+  const Grid<D>& grid = *grid_;
+  const double* theta = porosity.data();
+  for (int a = 0; a < D; ++a) {
+    double* out = acceleration_[a].data();
+    find_viscous_acceleration(a, theta, velocity[a].data(), out);
+    // The resistance R goes into mobility first: it needs the old velocity of all components.
+    const std::ptrdiff_t s = grid.stride(a);
+    const double* linear = medium.linear_drag[a].data();
+    const double* quadratic = medium.quadratic_drag[a].data();
+    double* m = mobility[a].data();
+    for_each_offset(grid, bounding_faces(grid, a), [&](std::ptrdiff_t at) {
+      const double open = 0.5 * (theta[at] + theta[at - s]);
+      double loss = linear[at];
+      if (quadratic[at] > 0.0)
+        loss += quadratic[at] *
+                std::sqrt(seepage_squared(grid, a, velocity, medium.grain_velocity, open, at));
+      m[at] = open * loss;
+    });
+  }
+  for (int a = 0; a < D; ++a) {
+    const double gravity = grid.gravity()[a];
+    const double* viscous = acceleration_[a].data();
+    const double* grains = medium.grain_velocity[a].data();
+    double* v = velocity[a].data();
+    double* m = mobility[a].data();
+    for_each_offset(grid, bounding_faces(grid, a), [&](std::ptrdiff_t at) {
+      const double resistance = m[at];
+      m[at] = dt / (density_ + dt * resistance);
+      v[at] = (density_ * (v[at] + dt * (gravity + viscous[at])) + dt * resistance * grains[at]) *
+              (m[at] / dt);
+    });
+    for (int side = 0; side < 2; ++side) {
+      if (!grid.touches(a, side) || grid.wall(a, side) == Wall::open) continue;
+      IndexBox<D> wall = grid.owned();
+      wall.lower[a] = side == 0 ? wall.lower[a] : wall.upper[a];
+      wall.upper[a] = wall.lower[a] + 1;
+      for_each_offset(grid, wall, [&](std::ptrdiff_t at) { v[at] = 0.0; });
+    }
+  }
+}
+
+template class Predictor<2>;
+template class Predictor<3>;
+
+}  // namespace mudlark

@@ -1,0 +1,33 @@
+#pragma once
+/// Forces on the water other than pressure: gravity, viscosity, drag of the grains.
+#include "flow/options.hpp"
+#include "flow/porous_medium.hpp"
+
+namespace mudlark {
+
+template <int D>
+class Predictor {
+ public:
+  Predictor(const Grid<D>& grid, const FlowOptions& options);
+
+  /// velocity <- (rho (v + dt (g + nu lap v)) + dt R v_s) / (rho + dt R), R = theta_f (A + B|w|) on
+  /// all faces but closed walls, and mobility = dt / (rho + dt R) [m2 s/kg]: what a unit pressure
+  /// gradient changes v by. Drag is implicit in v with |w| of the start of the step. Ghosts of all
+  /// inputs valid; afterwards ghosts of velocity are stale; mobility holds on owned and bounding
+  /// faces.
+  void advance(const PorousMedium<D>& medium, const CellField<D>& porosity, double dt,
+               FaceVector<D>& velocity, FaceVector<D>& mobility);
+
+ private:
+  void find_viscous_acceleration(int component, const double* porosity, const double* velocity,
+                                 double* out) const;
+
+  const Grid<D>* grid_;
+  double density_, viscosity_;
+  FaceVector<D> acceleration_;
+};
+
+extern template class Predictor<2>;
+extern template class Predictor<3>;
+
+}  // namespace mudlark

@@ -1,0 +1,224 @@
+#include "flow/projection.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/errors.hpp"
+#include "numerics/loops.hpp"
+
+namespace mudlark {
+namespace {
+
+/// Shortest distance from a pressure point to the surface, in cells: a shorter one only stiffens
+/// the system.
+constexpr double shortest = 0.05;
+
+/// Where the plane cuts the axis through the cell's centre: cells beyond the centre along the axis.
+template <int D>
+double crossing(const Plane<D>& plane, int axis) {
+  double rest = plane.constant;
+  for (int a = 0; a < D; ++a)
+    if (a != axis) rest -= 0.5 * plane.normal[a];
+  return rest / plane.normal[axis] - 0.5;
+}
+
+}  // namespace
+
+template <int D>
+Projection<D>::Projection(const Grid<D>& grid, const FlowOptions& options)
+    : grid_(&grid),
+      density_(options.density),
+      ghosts_(grid),
+      unknown_(grid, "pressure unknown", "1"),
+      distance_(grid, "pressure distance", "1"),
+      system_(grid),
+      solver_(grid) {}
+
+/// Distance xi from the centre of the wet cell towards its dry neighbour: by the interface plane in
+/// the wet cell, else by that in the dry one, else between the saturations.
+template <int D>
+double Projection<D>::distance(const double* alpha, std::ptrdiff_t wet, int axis, int direction,
+                               const InterfaceAdvection<D>& interface) const {
+  const std::ptrdiff_t dry = wet + direction * grid_->stride(axis);
+  if (alpha[wet] < 1.0 - 1e-9) {
+    const Plane<D> plane = interface.plane(alpha, wet);
+    if (plane.normal[axis] * direction > 1e-6) {
+      const double xi = direction * crossing(plane, axis);
+      if (xi <= 0.5) return std::max(xi, shortest);
+    }
+  }
+  if (alpha[dry] > 1e-9) {
+    const Plane<D> plane = interface.plane(alpha, dry);
+    if (plane.normal[axis] * direction > 1e-6) {
+      const double xi = 1.0 + direction * crossing(plane, axis);
+      if (xi >= 0.5 && xi <= 1.0) return xi;
+    }
+  }
+  return std::clamp((alpha[wet] - 0.5) / (alpha[wet] - alpha[dry]), shortest, 1.0);
+}
+
+template <int D>
+void Projection<D>::find_surface(const CellField<D>& water, const CellField<D>& porosity,
+                                 const CellField<D>& alpha,
+                                 const InterfaceAdvection<D>& interface) {
+  const Grid<D>& grid = *grid_;
+  const double* w = water.data();
+  const double* theta = porosity.data();
+  double* unknown = unknown_.data();
+  for_each_offset(grid, grid.local(), [&](std::ptrdiff_t at) {
+    unknown[at] = InterfaceAdvection<D>::dilates(w[at], theta[at]) ? 1.0 : 0.0;
+  });
+  for (int axis = 0; axis < D; ++axis) {
+    const std::ptrdiff_t s = grid.stride(axis);
+    double* distance_here = distance_[axis].data();
+    for_each_offset(grid, bounding_faces(grid, axis), [&](std::ptrdiff_t at) {
+      const bool above = unknown[at] > 0.0, below = unknown[at - s] > 0.0;
+      if (above && below)
+        distance_here[at] = 1.0;
+      else if (below)
+        distance_here[at] = distance(alpha.data(), at - s, axis, 1, interface);
+      else
+        distance_here[at] = above ? distance(alpha.data(), at, axis, -1, interface) : 0.0;
+    });
+  }
+  find_wall_distances();
+}
+
+template <int D>
+void Projection<D>::find_wall_distances() {
+  const Grid<D>& grid = *grid_;
+  for (int axis = 0; axis < D; ++axis)
+    for (int side = 0; side < 2; ++side) {
+      if (!grid.touches(axis, side)) continue;
+      const bool open = grid.wall(axis, side) == Wall::open;
+      IndexBox<D> wall = grid.owned();
+      wall.lower[axis] = side == 0 ? wall.lower[axis] : wall.upper[axis];
+      wall.upper[axis] = wall.lower[axis] + 1;
+      const std::ptrdiff_t inside = side == 0 ? 0 : -grid.stride(axis);
+      double* distance_here = distance_[axis].data();
+      const double* unknown = unknown_.data();
+      for_each_offset(grid, wall, [&](std::ptrdiff_t at) {
+        distance_here[at] = open && unknown[at + inside] > 0.0 ? 0.5 : 0.0;
+      });
+      // Nothing behind a wall is an unknown: the mirror cell only served the interface.
+      IndexBox<D> behind = grid.owned();
+      behind.lower[axis] = side == 0 ? behind.lower[axis] - 1 : behind.upper[axis];
+      behind.upper[axis] = behind.lower[axis] + 1;
+      double* flag = unknown_.data();
+      for_each_offset(grid, behind, [&](std::ptrdiff_t at) { flag[at] = 0.0; });
+    }
+}
+
+/// Couplings and Dirichlet terms of all faces, and the divergence of the predicted flux. Returns
+/// whether any face of this rank sees a given pressure.
+template <int D>
+bool Projection<D>::assemble_faces(const CellField<D>& porosity, const FaceVector<D>& mobility,
+                                   const FaceVector<D>& velocity) {
+  const Grid<D>& grid = *grid_;
+  const double* theta = porosity.data();
+  const double* unknown = unknown_.data();
+  double* diagonal = system_.diagonal.data();
+  double* right = system_.right_side.data();
+  bool given = false;
+  for (int axis = 0; axis < D; ++axis) {
+    const std::ptrdiff_t s = grid.stride(axis);
+    const double inverse = 1.0 / grid.spacing()[axis];
+    const double* m = mobility[axis].data();
+    const double* v = velocity[axis].data();
+    const double* reach = distance_[axis].data();
+    double* coupling = system_.coupling[axis].data();
+    const auto conductance = [&](std::ptrdiff_t at) {
+      return reach[at] > 0.0
+                 ? 0.5 * (theta[at] + theta[at - s]) * m[at] * inverse * inverse / reach[at]
+                 : 0.0;
+    };
+    for_each_offset(grid, bounding_faces(grid, axis), [&](std::ptrdiff_t at) {
+      const bool joined = unknown[at] > 0.0 && unknown[at - s] > 0.0 && reach[at] > 0.0;
+      coupling[at] = joined ? conductance(at) : 0.0;
+      given = given || (reach[at] > 0.0 && !joined);
+    });
+    for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) {
+      if (unknown[at] == 0.0) return;
+      diagonal[at] += conductance(at) + conductance(at + s);
+      const double out = 0.5 * (theta[at + s] + theta[at]) * v[at + s],
+                   in = 0.5 * (theta[at] + theta[at - s]) * v[at];
+      right[at] -= (out - in) * inverse;
+    });
+  }
+  return given;
+}
+
+template <int D>
+SolveReport Projection<D>::project(const CellField<D>& porosity, const FaceVector<D>& mobility,
+                                   const CellField<D>& target, const CellField<D>& give_way,
+                                   CellField<D>& pressure, FaceVector<D>& velocity,
+                                   double tolerance) {
+  const Grid<D>& grid = *grid_;
+  const double* unknown = unknown_.data();
+  double* p = pressure.data();
+  bool storage = false;
+  for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) {
+    const double yielding = unknown[at] > 0.0 ? give_way.data()[at] : 0.0;
+    if (unknown[at] == 0.0) p[at] = 0.0;  // atmosphere
+    storage = storage || yielding > 0.0;
+    system_.diagonal.data()[at] = yielding;
+    system_.right_side.data()[at] = unknown[at] > 0.0 ? target.data()[at] + yielding * p[at] : 0.0;
+  });
+  const bool given = assemble_faces(porosity, mobility, velocity);
+  system_.constant_free = max_over_ranks(grid, given || storage ? 1.0 : 0.0) == 0.0;
+  const SolveReport report = solver_.solve(system_, pressure, tolerance);
+  if (!report.converged)
+    throw DivergenceError(
+        fmt::format("The water's pressure could not be found: after {} iterations the largest "
+                    "divergence left is {:.3g} 1/s (allowed {:.3g}).",
+                    report.iterations, report.residual, tolerance));
+  if (system_.constant_free) fix_constant(pressure);
+  correct(mobility, pressure, velocity);
+  return report;
+}
+
+/// In a closed full box only pressure differences count; the mean is set to that of water at rest
+/// with zero pressure in its highest corner.
+template <int D>
+void Projection<D>::fix_constant(CellField<D>& pressure) {
+  const Grid<D>& grid = *grid_;
+  double mean = 0.0, sum = 0.0, cells = 1.0;
+  for (int a = 0; a < D; ++a) {
+    cells *= grid.cells()[a];
+    if (!grid.periodic(a))
+      mean += 0.5 * density_ * std::abs(grid.gravity()[a]) * grid.cells()[a] * grid.spacing()[a];
+  }
+  double* p = pressure.data();
+  for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) { sum += p[at]; });
+  const double shift = mean - sum_over_ranks(grid, sum) / cells;
+  for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) { p[at] += shift; });
+  ghosts_.update(pressure);
+}
+
+template <int D>
+void Projection<D>::correct(const FaceVector<D>& mobility, const CellField<D>& pressure,
+                            FaceVector<D>& velocity) const {
+  const Grid<D>& grid = *grid_;
+  const double* unknown = unknown_.data();
+  const double* p = pressure.data();
+  for (int axis = 0; axis < D; ++axis) {
+    const std::ptrdiff_t s = grid.stride(axis);
+    const double inverse = 1.0 / grid.spacing()[axis];
+    const double* m = mobility[axis].data();
+    const double* reach = distance_[axis].data();
+    double* v = velocity[axis].data();
+    for_each_offset(grid, bounding_faces(grid, axis), [&](std::ptrdiff_t at) {
+      if (reach[at] == 0.0) return;
+      const double above = unknown[at] > 0.0 ? p[at] : 0.0,
+                   below = unknown[at - s] > 0.0 ? p[at - s] : 0.0;
+      v[at] -= m[at] * (above - below) * inverse / reach[at];
+    });
+  }
+}
+
+template class Projection<2>;
+template class Projection<3>;
+
+}  // namespace mudlark

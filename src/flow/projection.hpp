@@ -1,0 +1,53 @@
+#pragma once
+/// Pressure projection with a ghost-fluid free surface in a porous medium.
+#include "flow/options.hpp"
+#include "flow/porous_medium.hpp"
+#include "numerics/interface_advection.hpp"
+#include "numerics/pressure_solver.hpp"
+
+namespace mudlark {
+
+template <int D>
+class Projection {
+ public:
+  Projection(const Grid<D>& grid, const FlowOptions& options);
+
+  /// Finds the cells with a pressure unknown (alpha >= 1/2) and, for each of their faces, the
+  /// distance over which the pressure falls: 1 cell between two unknowns, xi to the surface (where
+  /// p = 0), 1/2 to an open wall. `alpha` needs valid ghosts.
+  void find_surface(const CellField<D>& water, const CellField<D>& porosity,
+                    const CellField<D>& alpha, const InterfaceAdvection<D>& interface);
+
+  /// Makes div(theta_f v) = target - give_way (p - p_old) in the unknown cells by v -= mobility
+  /// grad p. Gibou et al. (2002), J. Comput. Phys. 176, for the surface rows. Throws
+  /// DivergenceError when the solver does not reach `tolerance` [1/s]. Velocity ghosts are stale
+  /// afterwards, p's valid.
+  SolveReport project(const CellField<D>& porosity, const FaceVector<D>& mobility,
+                      const CellField<D>& target, const CellField<D>& give_way,
+                      CellField<D>& pressure, FaceVector<D>& velocity, double tolerance);
+
+  const CellField<D>& unknown() const { return unknown_; }  ///< 1 in cells with a pressure unknown
+
+ private:
+  double distance(const double* alpha, std::ptrdiff_t wet, int axis, int direction,
+                  const InterfaceAdvection<D>& interface) const;
+  void find_wall_distances();
+  bool assemble_faces(const CellField<D>& porosity, const FaceVector<D>& mobility,
+                      const FaceVector<D>& velocity);
+  void correct(const FaceVector<D>& mobility, const CellField<D>& pressure,
+               FaceVector<D>& velocity) const;
+  void fix_constant(CellField<D>& pressure);
+
+  const Grid<D>* grid_;
+  double density_;
+  Ghosts<D> ghosts_;
+  CellField<D> unknown_;
+  FaceVector<D> distance_;  ///< in cells; 0: no pressure acts on the face
+  PressureSystem<D> system_;
+  PressureSolver<D> solver_;
+};
+
+extern template class Projection<2>;
+extern template class Projection<3>;
+
+}  // namespace mudlark

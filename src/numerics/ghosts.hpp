@@ -1,0 +1,34 @@
+#pragma once
+/// Ghost layers of the water's fields: neighbours' values, and the mirror region behind the walls.
+#include "grid/field.hpp"
+#include "grid/halo.hpp"
+
+namespace mudlark {
+
+/// Behind a wall: cell values are mirrored (no gradient, contact angle 90 degrees); the normal
+/// velocity is odd at closed walls and continues unchanged at open ones; the tangential velocity is
+/// even at slip and open walls and odd at no-slip walls.
+template <int D>
+class Ghosts {
+ public:
+  explicit Ghosts(const Grid<D>& grid) : grid_(&grid), halo_(grid) {}
+
+  void update(CellField<D>& field);
+  void update_velocity(FaceVector<D>& velocity);
+  /// Exchange between ranks only (fluxes, flags at faces).
+  void exchange(FaceVector<D>& field) { halo_.exchange(field); }
+  void exchange(CellField<D>& field) { halo_.exchange(field); }
+
+ private:
+  void mirror_cells(double* values, int axis, int side) const;
+  void fill_normal(double* values, int axis, int side) const;
+  void fill_tangential(double* values, int axis, int side) const;
+
+  const Grid<D>* grid_;
+  Halo<D> halo_;
+};
+
+extern template class Ghosts<2>;
+extern template class Ghosts<3>;
+
+}  // namespace mudlark

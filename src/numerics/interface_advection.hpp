@@ -1,0 +1,66 @@
+#pragma once
+/// Transport of the water fraction W (water volume per cell volume) through a porous medium that
+/// may move.
+///
+/// Weymouth & Yue (2010), J. Comput. Phys. 229: one sweep per axis with a dilation term frozen at
+/// the start of the step, and Mudlark's fourth sweep, which gives back what the porosity theta
+/// gained, so that W stays conserved to round-off and 0 <= W <= theta when theta moves
+/// (docs/methods/free-surface-flow.md).
+#include <vector>
+
+#include "numerics/ghosts.hpp"
+#include "numerics/plic.hpp"
+
+namespace mudlark {
+
+template <int D>
+class InterfaceAdvection {
+ public:
+  explicit InterfaceAdvection(const Grid<D>& grid);
+
+  /// Cells that count as full of water for the dilation term: W >= theta/2. The pressure solve must
+  /// make the flux free of divergence (up to the porosity's change) in exactly these cells.
+  static bool dilates(double water, double porosity) { return water >= 0.5 * porosity; }
+
+  /// The D sweeps. `flux` is U = theta_f v [m/s], `porosity` the theta that it was made with; both
+  /// need valid ghosts and stay fixed. Then `water` lacks the fourth sweep. `order` permutes the
+  /// axes: count it up every step. Bound: dt * max(sum of inflow, sum of outflow) <= theta/2 in
+  /// every cell.
+  void sweep(CellField<D>& water, const CellField<D>& porosity, const FaceVector<D>& flux,
+             double dt, std::int64_t order);
+
+  /// Fourth sweep: W += c (theta_new - theta); then theta = theta_new. Owned cells.
+  void follow_porosity(CellField<D>& water, CellField<D>& porosity,
+                       const CellField<D>& new_porosity) const;
+
+  /// Water that passed each face during the sweeps, as a share of a cell's volume; on owned and
+  /// bounding faces.
+  const FaceVector<D>& water_flux() const { return water_flux_; }
+
+  /// Plane of the interface in a cell; `alpha` with valid neighbours, `at` the cell's place.
+  Plane<D> plane(const double* alpha, std::ptrdiff_t at) const;
+
+ private:
+  void sweep_axis(CellField<D>& water, const CellField<D>& porosity, const FaceField<D>& flux,
+                  int axis, double dt);
+  void find_planes(int axis);
+  double water_through(double shift, std::ptrdiff_t donor, int axis, double porosity) const;
+
+  const Grid<D>* grid_;
+  Ghosts<D> ghosts_;
+  CellField<D> alpha_;
+  CellField<D> dilates_;
+  std::vector<Plane<D>> planes_;
+  FaceVector<D> water_flux_;
+  std::array<std::ptrdiff_t, D> strides_{};
+};
+
+/// theta - dt div U on owned cells: the porosity after the flux U has carried the mixture.
+template <int D>
+void move_porosity(const Grid<D>& grid, const CellField<D>& porosity, const FaceVector<D>& flux,
+                   double dt, CellField<D>& moved);
+
+extern template class InterfaceAdvection<2>;
+extern template class InterfaceAdvection<3>;
+
+}  // namespace mudlark

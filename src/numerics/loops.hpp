@@ -1,0 +1,34 @@
+#pragma once
+/// Loops over boxes of the local arrays by position: the inner loop is plain and can be vectorised.
+#include <cstddef>
+
+#include "grid/grid.hpp"
+
+namespace mudlark {
+
+/// Calls body(at) with the position `at` in the local arrays for every index of the box; a
+/// neighbour along an axis lies at `at + grid.stride(axis)`.
+template <int D, class Body>
+inline void for_each_offset(const Grid<D>& grid, const IndexBox<D>& box, Body&& body) {
+  if (box.empty()) return;
+  const std::ptrdiff_t count = box.upper[0] - box.lower[0];
+  const auto row = [&](const Index<D>& first) {
+    const std::ptrdiff_t start = grid.offset(first);
+    for (std::ptrdiff_t at = start; at < start + count; ++at) body(at);
+  };
+  if constexpr (D == 2) {
+    for (int j = box.lower[1]; j < box.upper[1]; ++j) row(Index<2>{{box.lower[0], j}});
+  } else {
+    for (int k = box.lower[2]; k < box.upper[2]; ++k)
+      for (int j = box.lower[1]; j < box.upper[1]; ++j) row(Index<3>{{box.lower[0], j, k}});
+  }
+}
+
+/// Faces of an axis that bound this rank's cells: the owned ones and the upper one of the last
+/// cell.
+template <int D>
+IndexBox<D> bounding_faces(const Grid<D>& grid, int axis) {
+  return grid.owned().extended(axis, 1);
+}
+
+}  // namespace mudlark

@@ -1,0 +1,45 @@
+#pragma once
+/// Conjugate gradients for the pressure, preconditioned by structured multigrid.
+#include "numerics/multigrid.hpp"
+#include "numerics/pressure_system.hpp"
+
+namespace mudlark {
+
+struct SolveReport {
+  int iterations = 0;
+  double residual = 0.0;  ///< largest |right side - A p| of all cells [1/s]
+  bool converged = false;
+  bool plain = false;  ///< multigrid stalled and diagonal scaling took over
+};
+
+template <int D>
+class PressureSolver {
+ public:
+  explicit PressureSolver(const Grid<D>& grid);
+
+  /// Solves A p = right side from the present p (warm start), until the largest residual is below
+  /// `tolerance` [1/s]. With `system.constant_free` the mean of the right side is taken out first
+  /// (a closed box cannot change its volume) and p keeps its mean. Falls back to diagonal scaling
+  /// where multigrid stalls; the caller decides what a report without convergence means. Leaves the
+  /// ghosts of p valid.
+  SolveReport solve(PressureSystem<D>& system, CellField<D>& p, double tolerance);
+
+ private:
+  bool iterate(const PressureSystem<D>& system, CellField<D>& p, double tolerance, int limit,
+               bool multigrid, SolveReport& report);
+  void find_residual(const PressureSystem<D>& system, CellField<D>& p);
+  void precondition(const PressureSystem<D>& system, bool multigrid);
+  void remove_mean(const PressureSystem<D>& system, CellField<D>& field) const;
+  double dot_product(const CellField<D>& left, const CellField<D>& right) const;
+  double largest(const CellField<D>& field) const;
+
+  const Grid<D>* grid_;
+  Ghosts<D> ghosts_;
+  Multigrid<D> multigrid_;
+  CellField<D> residual_, scaled_, direction_, image_;
+};
+
+extern template class PressureSolver<2>;
+extern template class PressureSolver<3>;
+
+}  // namespace mudlark

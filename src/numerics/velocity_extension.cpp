@@ -1,0 +1,160 @@
+#include "numerics/velocity_extension.hpp"
+
+#include <algorithm>
+
+#include "numerics/loops.hpp"
+
+namespace mudlark {
+namespace {
+
+// States of a face: negative ones wait for a value; a layer's number says when a face got it.
+constexpr double empty = -2.0;  ///< no water: to be extended
+constexpr double free_fly =
+    -1.0;  ///< water without pressure: extended next to governed faces, else kept
+constexpr double governed = 0.0;
+constexpr double flying = 10.0;
+
+/// A face flies freely from this share of water on; less is dust that goes with its surroundings.
+constexpr double dust = 1e-6;
+
+}  // namespace
+
+template <int D>
+VelocityExtension<D>::VelocityExtension(const Grid<D>& grid)
+    : grid_(&grid),
+      ghosts_(grid),
+      state_(grid, "extension state", "1"),
+      squeeze_(grid, "squeeze", "m/s") {}
+
+template <int D>
+void VelocityExtension<D>::mark(int component, const CellField<D>& unknown,
+                                const CellField<D>& water, const CellField<D>& porosity) {
+  const Grid<D>& grid = *grid_;
+  IndexBox<D> box = grid.local();
+  box.lower[component] += 1;
+  const std::ptrdiff_t s = grid.stride(component);
+  state_[component].fill(empty);
+  const double* inside = unknown.data();
+  const double* w = water.data();
+  const double* theta = porosity.data();
+  double* state = state_[component].data();
+  for_each_offset(grid, box, [&](std::ptrdiff_t at) {
+    if (inside[at] + inside[at - s] > 0.0)
+      state[at] = governed;
+    else
+      state[at] = w[at] + w[at - s] > dust * (theta[at] + theta[at - s]) ? free_fly : empty;
+  });
+  for (int side = 0; side < 2; ++side) {
+    if (!grid.touches(component, side) || grid.wall(component, side) == Wall::open) continue;
+    IndexBox<D> wall = grid.local();
+    wall.lower[component] =
+        side == 0 ? grid.owned().lower[component] : grid.owned().upper[component];
+    wall.upper[component] = wall.lower[component] + 1;
+    // A closed wall's face is known (zero), and no flow goes through it.
+    for_each_offset(grid, wall, [&](std::ptrdiff_t at) { state[at] = governed; });
+  }
+}
+
+/// Faces still without a value take the mean of the neighbours that had one before this layer.
+template <int D>
+void VelocityExtension<D>::grow_layer(int component, int layer, double* velocity) {
+  const Grid<D>& grid = *grid_;
+  IndexBox<D> box = grid.owned().grown(ghost_layers - layer);
+  if (grid.touches(component, 1)) box = box.extended(component, layer == 1 ? 0 : 1);
+  double* state = state_[component].data();
+  const double mine = static_cast<double>(layer);
+  for_each_offset(grid, box, [&](std::ptrdiff_t at) {
+    if (state[at] >= 0.0) return;
+    double sum = 0.0, count = 0.0;
+    for (int axis = 0; axis < D; ++axis) {
+      const std::ptrdiff_t s = grid.stride(axis);
+      for (const std::ptrdiff_t other : {at - s, at + s})
+        if (state[other] >= 0.0 && (state[other] < mine || state[other] == flying))
+          sum += velocity[other], count += 1.0;
+    }
+    if (count == 0.0) return;
+    velocity[at] = sum / count;
+    state[at] = mine;
+  });
+}
+
+template <int D>
+void VelocityExtension<D>::extend(const CellField<D>& unknown, const CellField<D>& water,
+                                  const CellField<D>& porosity, FaceVector<D>& velocity) {
+  const Grid<D>& grid = *grid_;
+  for (int component = 0; component < D; ++component) mark(component, unknown, water, porosity);
+  ghosts_.exchange(state_);  // the lowest ghost face of a rank lacks one of its cells there
+  for (int component = 0; component < D; ++component) {
+    double* v = velocity[component].data();
+    double* state = state_[component].data();
+    grow_layer(component, 1, v);
+    const auto all = grid.local();
+    for_each_offset(grid, all, [&](std::ptrdiff_t at) {
+      if (state[at] == free_fly) state[at] = flying;
+    });
+    for (int layer = 2; layer <= ghost_layers; ++layer) grow_layer(component, layer, v);
+    for_each_offset(grid, grid.owned_faces(component), [&](std::ptrdiff_t at) {
+      if (state[at] < 0.0) v[at] = 0.0;
+    });
+  }
+  ghosts_.update_velocity(velocity);
+  keep_from_closing(unknown, water, porosity, velocity);
+}
+
+/// Speed by which each free face of a closing cell has to move outwards so that the cell keeps its
+/// volume.
+template <int D>
+void VelocityExtension<D>::find_squeeze(const double* unknown, const double* water,
+                                        const double* porosity, const FaceVector<D>& velocity) {
+  const Grid<D>& grid = *grid_;
+  double* squeeze = squeeze_.data();
+  for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) {
+    squeeze[at] = 0.0;
+    if (unknown[at] > 0.0 || water[at] <= dust * porosity[at]) return;
+    double opening = 0.0, free_sides = 0.0;
+    for (int axis = 0; axis < D; ++axis) {
+      const double* v = velocity[axis].data();
+      const double* state = state_[axis].data();
+      const std::ptrdiff_t s = grid.stride(axis);
+      const double inverse = 1.0 / grid.spacing()[axis];
+      opening += (v[at + s] - v[at]) * inverse;
+      free_sides +=
+          inverse * ((state[at] == flying ? 1.0 : 0.0) + (state[at + s] == flying ? 1.0 : 0.0));
+    }
+    if (opening < 0.0 && free_sides > 0.0) squeeze[at] = -opening / free_sides;
+  });
+}
+
+template <int D>
+void VelocityExtension<D>::keep_from_closing(const CellField<D>& unknown, const CellField<D>& water,
+                                             const CellField<D>& porosity,
+                                             FaceVector<D>& velocity) {
+  const Grid<D>& grid = *grid_;
+  double flying_faces = 0.0;
+  for (int axis = 0; axis < D; ++axis) {
+    const double* state = state_[axis].data();
+    for_each_offset(grid, grid.owned(),
+                    [&](std::ptrdiff_t at) { flying_faces += state[at] == flying ? 1.0 : 0.0; });
+  }
+  if (max_over_ranks(grid, flying_faces) == 0.0) return;
+  ghosts_.exchange(state_);
+  for (int pass = 0; pass < 3; ++pass) {
+    find_squeeze(unknown.data(), water.data(), porosity.data(), velocity);
+    ghosts_.update(squeeze_);
+    const double* squeeze = squeeze_.data();
+    for (int axis = 0; axis < D; ++axis) {
+      double* v = velocity[axis].data();
+      const double* state = state_[axis].data();
+      const std::ptrdiff_t s = grid.stride(axis);
+      for_each_offset(grid, grid.owned_faces(axis), [&](std::ptrdiff_t at) {
+        if (state[at] == flying) v[at] += squeeze[at - s] - squeeze[at];
+      });
+    }
+    ghosts_.update_velocity(velocity);
+  }
+}
+
+template class VelocityExtension<2>;
+template class VelocityExtension<3>;
+
+}  // namespace mudlark
