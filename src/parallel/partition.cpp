@@ -53,6 +53,13 @@ Index<D> choose_processes(int size, const Index<D>& cells, int minimum_width) {
 template <int D>
 Partition<D> make_partition(MPI_Comm comm, const Index<D>& cells,
                             const std::array<bool, D>& periodic, int minimum_width) {
+  for (int a = 0; a < D; ++a)
+    if (periodic[static_cast<std::size_t>(a)] && cells[a] < minimum_width)
+      throw InputError(
+          fmt::format("Axis {} is periodic with {} cells, but its ends see {} cells of each other. "
+                      "Use at least "
+                      "{} cells along it.",
+                      "xyz"[D == 2 && a == 1 ? 2 : a], cells[a], minimum_width, minimum_width));
   Partition<D> part;
   part.comm = comm;
   MPI_Comm_rank(comm, &part.rank);
