@@ -10,4 +10,5 @@
 ///     a.point_ids("id", ids_);                    // std::vector<std::int64_t>&, one per point
 ///   }
 ///
-/// that serves saving and loading alike, so a new quantity is added once. Names are unique in a checkpoint.
+/// that serves saving and loading alike, so a new quantity is added once. Names are unique in a
+/// checkpoint.

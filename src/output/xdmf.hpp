@@ -1,0 +1,25 @@
+#pragma once
+/// Text of the XDMF files (XDMF 2 model, see xdmf.org): which numbers of an HDF5 file are what.
+#include <array>
+#include <string>
+#include <vector>
+
+#include "output/output_series.hpp"
+
+namespace mudlark {
+
+/// Uniform grid in space; in 2D one layer of cells in the x-z plane (`cells[1]` = 0: no extent
+/// along y).
+struct XdmfGrid {
+  std::array<double, 3> lower{}, spacing{};  ///< [m], x y z
+  std::array<int, 3> cells{};
+};
+
+/// Cell values on a uniform grid at several times.
+std::string xdmf_of_fields(const std::string& data_file, const XdmfGrid& grid,
+                           const std::vector<StoredOutput>& outputs);
+
+/// Points with values at several times; each output has an array "position".
+std::string xdmf_of_points(const std::string& data_file, const std::vector<StoredOutput>& outputs);
+
+}  // namespace mudlark
