@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 #include <random>
+#include <vector>
 
 namespace mudlark {
 namespace {
@@ -151,6 +152,22 @@ TEST(Halo, MovesSeveralFieldsInOneCallWithoutMixingThem) {
   for_each(grid.local(), [&](const Index<3>& i) {
     ASSERT_EQ(first[i], number_of(grid, i, 0));
     ASSERT_EQ(second[i], number_of(grid, i, 1));
+  });
+}
+
+TEST(Halo, KeepsTheComponentsOfAnIndexTogether) {
+  const Grid<2> grid = make_grid<2>({11, 9, 1}, {true, false, false});
+  std::vector<double> pairs(2 * grid.local_size(), 0.0);
+  const auto at = [&](const Index<2>& i) { return 2 * static_cast<std::size_t>(grid.offset(i)); };
+  for_each(answered_for(grid), [&](const Index<2>& i) {
+    pairs[at(i)] = number_of(grid, i, 0);
+    pairs[at(i) + 1] = number_of(grid, i, 1);
+  });
+  const std::array<double*, 1> field{pairs.data()};
+  Halo<2>(grid).exchange(field, 2);
+  for_each(grid.local(), [&](const Index<2>& i) {
+    ASSERT_EQ(pairs[at(i)], number_of(grid, i, 0));
+    ASSERT_EQ(pairs[at(i) + 1], number_of(grid, i, 1));
   });
 }
 
