@@ -109,9 +109,9 @@ void FlowSolver<D>::project_start(const PorousMedium<D>& medium) {
     pressure_.fill(0.0);
   }
   extension_.extend(projection_.unknown(), water_, porosity_, velocity_);
-  double strongest = 0.0;
+  double round_off = 1e-300;  // what cancellation leaves of the divergence under the deepest water
   for (int a = 0; a < D; ++a) {
-    strongest = std::max(strongest, std::abs(grid.gravity()[a]) / grid.spacing()[a]);
+    round_off = std::max(round_off, 4e-15 * grid.cells()[a] * std::abs(grid.gravity()[a]) / grid.spacing()[a]);
     flux_[a].fill(grid.gravity()[a]);
   }
   for (int a = 0; a < D; ++a) {  // no flow through closed walls
@@ -120,8 +120,7 @@ void FlowSolver<D>::project_start(const PorousMedium<D>& medium) {
         zero_wall(grid, a, side, flux_[a]);
   }
   target_.fill(0.0);
-  last_solve_ = projection_.project(porosity_, mobility_, target_, no_storage_, pressure_, flux_,
-                                    std::max(1e-13 * strongest, 1e-300));
+  last_solve_ = projection_.project(porosity_, mobility_, target_, no_storage_, pressure_, flux_, round_off);
 }
 
 template <int D>

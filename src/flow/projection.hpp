@@ -32,6 +32,9 @@ class Projection {
   double distance(const double* alpha, std::ptrdiff_t wet, int axis, int direction,
                   const InterfaceAdvection<D>& interface) const;
   void find_wall_distances();
+  double assemble(const CellField<D>& porosity, const FaceVector<D>& mobility,
+                  const CellField<D>& target, const CellField<D>& give_way,
+                  const FaceVector<D>& velocity);
   bool assemble_faces(const CellField<D>& porosity, const FaceVector<D>& mobility,
                       const FaceVector<D>& velocity);
   void correct(const FaceVector<D>& mobility, const CellField<D>& pressure,
@@ -43,6 +46,7 @@ class Projection {
   Ghosts<D> ghosts_;
   CellField<D> unknown_;
   FaceVector<D> distance_;  ///< in cells; 0: no pressure acts on the face
+  CellField<D> rise_, risen_;  ///< of the pressure in this pass, and in all of this projection [Pa]
   PressureSystem<D> system_;
   PressureSolver<D> solver_;
 };

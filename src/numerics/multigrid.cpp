@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <stdexcept>
 
 #include "numerics/loops.hpp"
@@ -17,6 +18,12 @@ void check(HYPRE_Int code, const char* what) {
     HYPRE_ClearAllErrors();
     throw std::runtime_error(fmt::format("hypre failed to {} (error {})", what, code));
   }
+}
+
+/// hypre's structured multigrid closes a period only when it halves evenly down to one cell.
+template <int D>
+bool closes_seam(const Grid<D>& grid, int axis) {
+  return grid.periodic(axis) && std::has_single_bit(static_cast<unsigned>(grid.cells()[axis]));
 }
 
 }  // namespace
@@ -40,6 +47,9 @@ struct Multigrid<D>::Hypre {
     }
     check(HYPRE_StructGridCreate(mesh.comm(), D, &grid), "make a grid");
     check(HYPRE_StructGridSetExtents(grid, lower, upper), "make a grid");
+    HYPRE_Int period[D];
+    for (int a = 0; a < D; ++a) period[a] = closes_seam(mesh, a) ? mesh.cells()[a] : 0;
+    check(HYPRE_StructGridSetPeriodic(grid, period), "make a grid");
     check(HYPRE_StructGridAssemble(grid), "make a grid");
     check(HYPRE_StructStencilCreate(D, D + 1, &stencil), "make a stencil");
     for (int entry = 0; entry <= D; ++entry) {
@@ -96,10 +106,11 @@ void Multigrid<D>::build(const PressureSystem<D>& system) {
   for (HYPRE_Int entry = 0; entry <= D; ++entry) {
     if (entry > 0) {
       const int axis = entry - 1;
+      const bool seam = closes_seam(grid, axis);
       const double* coupling = system.coupling[axis].data();
       k = 0;
       for_each(grid.owned(), [&](const Index<D>& cell) {
-        buffer_[k++] = cell[axis] == 0 ? 0.0 : -coupling[grid.offset(cell)];
+        buffer_[k++] = cell[axis] == 0 && !seam ? 0.0 : -coupling[grid.offset(cell)];
       });
     }
     check(HYPRE_StructMatrixSetBoxValues(h.matrix, h.lower, h.upper, 1, &entry, buffer_.data()),

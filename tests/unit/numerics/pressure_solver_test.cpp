@@ -1,0 +1,169 @@
+// ranks: 1 3
+#include "numerics/pressure_solver.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "numerics/loops.hpp"
+
+namespace mudlark {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+template <int D>
+Grid<D> box(std::array<int, 3> cells, std::array<double, 3> upper, Wall wall) {
+  DomainOptions options;
+  options.cells = cells;
+  options.upper = upper;
+  for (auto& axis : options.walls) axis = {wall, wall};
+  return Grid<D>(options, MPI_COMM_WORLD);
+}
+
+/// -div(k grad p) with k given at faces; closed walls, or p = 0 half a cell beyond the last centre
+/// if `open`.
+template <int D, class Conductivity>
+void assemble(const Grid<D>& grid, PressureSystem<D>& system, bool open, Conductivity&& k) {
+  system.diagonal.fill(0.0);
+  for (int axis = 0; axis < D; ++axis) {
+    const double inverse = 1.0 / (grid.spacing()[axis] * grid.spacing()[axis]);
+    for_each(bounding_faces(grid, axis), [&](const Index<D>& face) {
+      const bool wall =
+          !grid.periodic(axis) && (face[axis] == 0 || face[axis] == grid.cells()[axis]);
+      const double coupling = k(grid.face_centre(axis, face)) * inverse;
+      system.coupling[axis][face] = wall ? 0.0 : coupling;
+      for (const Index<D>& cell : {face, face.shifted(axis, -1)})
+        if (grid.owned().contains(cell))
+          system.diagonal[cell] += wall ? (open ? 2.0 * coupling : 0.0) : coupling;
+    });
+  }
+  system.constant_free = !open;
+}
+
+/// Error of the manufactured pressure prod sin(pi x_a) with k = 1 + sum x_a / 2 under p = 0 walls.
+template <int D>
+double manufactured_error(int cells) {
+  const Grid<D> grid = box<D>({cells, cells, cells}, {1.0, 1.0, 1.0}, Wall::open);
+  PressureSystem<D> system(grid);
+  const auto k = [](const Vec<D>& x) {
+    double sum = 1.0;
+    for (int a = 0; a < D; ++a) sum += 0.5 * x[a];
+    return sum;
+  };
+  const auto exact = [](const Vec<D>& x) {
+    double product = 1.0;
+    for (int a = 0; a < D; ++a) product *= std::sin(pi * x[a]);
+    return product;
+  };
+  assemble(grid, system, true, k);
+  for_each(grid.owned(), [&](const Index<D>& cell) {
+    const Vec<D> x = grid.cell_centre(cell);
+    double gradients = 0.0;
+    for (int a = 0; a < D; ++a) gradients += 0.5 * pi * exact(x) / std::tan(pi * x[a]);
+    system.right_side[cell] = D * pi * pi * k(x) * exact(x) - gradients;
+  });
+  CellField<D> p(grid, "p", "Pa");
+  PressureSolver<D> solver(grid);
+  const SolveReport report = solver.solve(system, p, 1e-9);
+  EXPECT_TRUE(report.converged);
+  EXPECT_FALSE(report.plain);
+  EXPECT_LT(report.iterations, 25);
+  double error = 0.0;
+  for_each(grid.owned(), [&](const Index<D>& cell) {
+    error = std::max(error, std::abs(p[cell] - exact(grid.cell_centre(cell))));
+  });
+  return max_over_ranks(grid, error);
+}
+
+TEST(PressureSolver, SolvesAManufacturedPressureAtSecondOrder) {
+  EXPECT_GT(std::log2(manufactured_error<2>(32) / manufactured_error<2>(64)), 1.9);
+  EXPECT_GT(std::log2(manufactured_error<3>(12) / manufactured_error<3>(24)), 1.9);
+}
+
+/// Solves for a random-looking right side and returns the report.
+template <int D>
+SolveReport solve_rough(const Grid<D>& grid, bool open, double jump, double tolerance = 1e-10) {
+  PressureSystem<D> system(grid);
+  assemble(grid, system, open,
+           [&](const Vec<D>& x) { return x[D - 1] > 0.37 * grid.upper()[D - 1] ? 1.0 : jump; });
+  for_each(grid.owned(), [&](const Index<D>& cell) {
+    double phase = 0.3;
+    for (int a = 0; a < D; ++a) phase += (a + 1.7) * cell[a] * cell[a];
+    system.right_side[cell] = std::sin(phase);
+  });
+  CellField<D> p(grid, "p", "Pa");
+  PressureSolver<D> solver(grid);
+  return solver.solve(system, p, tolerance);
+}
+
+TEST(PressureSolver, ConvergesOnThinColumns) {
+  for (const bool open : {true, false}) {
+    const SolveReport report =
+        solve_rough<2>(box<2>({2, 835, 1}, {0.02, 8.35, 1.0}, Wall::open), open, 1.0, 1e-7);
+    EXPECT_TRUE(report.converged);
+    EXPECT_FALSE(report.plain);
+    EXPECT_LT(report.iterations, 40);
+  }
+}
+
+TEST(PressureSolver, ConvergesInPeriodicBoxesWhoseSizeIsNoPowerOfTwo) {
+  for (const int cells : {30, 33, 50}) {
+    const SolveReport report =
+        solve_rough<2>(box<2>({cells, cells + 7, 1}, {1.0, 1.0, 1.0}, Wall::periodic), false, 1.0);
+    EXPECT_TRUE(report.converged);
+    EXPECT_FALSE(report.plain);
+    EXPECT_LT(report.iterations, 75);
+  }
+}
+
+TEST(PressureSolver, ConvergesFastInPeriodicBoxesOfPowersOfTwo) {
+  const SolveReport flat =
+      solve_rough<2>(box<2>({32, 64, 1}, {1.0, 2.0, 1.0}, Wall::periodic), false, 1.0);
+  EXPECT_TRUE(flat.converged);
+  EXPECT_LT(flat.iterations, 20);
+  const SolveReport solid =
+      solve_rough<3>(box<3>({16, 16, 8}, {1.0, 1.0, 1.0}, Wall::periodic), false, 1.0);
+  EXPECT_TRUE(solid.converged);
+  EXPECT_LT(solid.iterations, 20);
+}
+
+TEST(PressureSolver, ConvergesInAClosedBoxWithAJumpOfConductivity) {
+  const SolveReport report =
+      solve_rough<3>(box<3>({12, 18, 15}, {1.0, 1.0, 1.0}, Wall::slip), false, 1e-4, 1e-8);
+  EXPECT_TRUE(report.converged);
+  EXPECT_FALSE(report.plain);
+  EXPECT_LT(report.iterations, 40);
+}
+
+TEST(PressureSolver, LeavesCellsWithoutUnknownAlone) {
+  const Grid<2> grid = box<2>({16, 16, 1}, {1.0, 1.0, 1.0}, Wall::slip);
+  PressureSystem<2> system(grid);
+  assemble(grid, system, false, [](const Vec<2>&) { return 1.0; });
+  CellField<2> p(grid, "p", "Pa");
+  // Upper half: air. Its lower neighbours keep the coupling in their diagonal: p = 0 above them.
+  for_each(grid.owned().grown(1), [&](const Index<2>& cell) {
+    if (cell[1] >= 8) {
+      system.diagonal[cell] = 0.0;
+      p[cell] = 42.0;
+    } else {
+      system.right_side[cell] = 1.0;
+    }
+    if (cell[1] >= 8) system.coupling[0][cell] = system.coupling[1][cell] = 0.0;
+  });
+  system.constant_free = false;
+  PressureSolver<2> solver(grid);
+  EXPECT_TRUE(solver.solve(system, p, 1e-10).converged);
+  // One-dimensional: p'' = -1 with p'(0) = 0 and p = 0 at the first air centre.
+  for_each(grid.owned(), [&](const Index<2>& cell) {
+    const double h = 1.0 / 16.0, z = (cell[1] + 0.5) * h, top = 8.5 * h;
+    if (cell[1] >= 8)
+      EXPECT_EQ(p[cell], 42.0);
+    else
+      EXPECT_NEAR(p[cell], 0.5 * (top * top - z * z), 0.5 * h * h);
+  });
+}
+
+}  // namespace
+}  // namespace mudlark
