@@ -4,8 +4,9 @@
 namespace mudlark {
 
 enum class CouplingMode { none, surface };
-/// Pore water at the soil's surface: consistent: p_soil = p_water; load_only: the water's pressure loads
-/// the skeleton, the pore water drains at zero pressure (the paper's benchmark); membrane: no relative flux.
+/// Pore water at the soil's surface: consistent: p_soil = p_water; load_only: the water's pressure
+/// loads the skeleton, the pore water drains at zero pressure (the paper's benchmark); membrane: no
+/// relative flux.
 enum class Mudline { consistent, load_only, membrane };
 enum class PressureInTime { linear, constant };
 
@@ -13,8 +14,9 @@ struct CouplingOptions {
   CouplingMode mode = CouplingMode::none;
   Mudline mudline = Mudline::consistent;
   PressureInTime pressure_in_time = PressureInTime::linear;
-  double ramp = 0.0;               ///< [s] over which the water's load is brought onto the soil (half cosine)
-  double impedance_factor = 1.0;   ///< scales how easily the bed gives way in the pressure solve; 0: loose coupling
+  double ramp = 0.0;  ///< [s] over which the water's load is brought onto the soil (half cosine)
+  double impedance_factor =
+      1.0;  ///< scales how easily the bed gives way in the pressure solve; 0: loose coupling
 };
 
 }  // namespace mudlark

@@ -21,8 +21,9 @@ double PressureExtension<D>::hydrostatic_difference(int axis) const {
 }
 
 template <int D>
-void PressureExtension<D>::extend(const CellField<D>& open, const CellField<D>& wetness, double water_density,
-                                  const IndexBox<D>& box, CellField<D>& pressure) {
+void PressureExtension<D>::extend(const CellField<D>& open, const CellField<D>& wetness,
+                                  double water_density, const IndexBox<D>& box,
+                                  CellField<D>& pressure) {
   water_density_ = water_density;
   const IndexBox<D> cells = box.intersected(grid_->owned());
   known_.copy_values_from(open);

@@ -4,19 +4,20 @@
 
 namespace mudlark {
 
-/// Continues a pressure [Pa] from open cells (open = 1) layer by layer into the cells of `box` that are not
-/// (open = 0), and behind the walls. From a wet neighbour the pressure goes on hydrostatically, p + rho_w g.dx; from
-/// a dry one it stays. Cells between several sources take the mean. Only then does the virtual stress
-/// -(grad W p_e + W grad p_e) see a smooth field, whose value at the mudline is the water's pressure there.
-/// Collective; on return pressure is valid in `box` with ghosts.
+/// Continues a pressure [Pa] from open cells (open = 1) layer by layer into the cells of `box` that
+/// are not (open = 0), and behind the walls. From a wet neighbour the pressure goes on
+/// hydrostatically, p + rho_w g.dx; from a dry one it stays. Cells between several sources take the
+/// mean. Only then does the virtual stress
+/// -(grad W p_e + W grad p_e) see a smooth field, whose value at the mudline is the water's
+/// pressure there. Collective; on return pressure is valid in `box` with ghosts.
 template <int D>
 class PressureExtension {
  public:
   explicit PressureExtension(const Grid<D>& grid);
 
   /// `wetness`: 1 in cells with water, 0 in dry ones; read in open cells only.
-  void extend(const CellField<D>& open, const CellField<D>& wetness, double water_density, const IndexBox<D>& box,
-              CellField<D>& pressure);
+  void extend(const CellField<D>& open, const CellField<D>& wetness, double water_density,
+              const IndexBox<D>& box, CellField<D>& pressure);
 
  private:
   bool extend_one_layer(const IndexBox<D>& cells, CellField<D>& pressure);

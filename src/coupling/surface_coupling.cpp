@@ -14,8 +14,8 @@ constexpr double least_porosity = 0.05;
 }  // namespace
 
 template <int D>
-SurfaceCoupling<D>::SurfaceCoupling(const Grid<D>& grid, const CouplingOptions& options, const FlowOptions& flow,
-                                    const SoilSolver<D>& soil)
+SurfaceCoupling<D>::SurfaceCoupling(const Grid<D>& grid, const CouplingOptions& options,
+                                    const FlowOptions& flow, const SoilSolver<D>& soil)
     : grid_(&grid),
       options_(options),
       halo_(grid),
@@ -47,7 +47,8 @@ double SurfaceCoupling<D>::load_share(double time) const {
 }
 
 template <int D>
-void SurfaceCoupling<D>::map_soil_to_grid(SoilSolver<D>& soil, const PorousMedium<D>& fixed, PorousMedium<D>& medium) {
+void SurfaceCoupling<D>::map_soil_to_grid(SoilSolver<D>& soil, const PorousMedium<D>& fixed,
+                                          PorousMedium<D>& medium) {
   soil.solid_fraction(fraction_, resistance_);
   for_each(grid_->local(), [&](const Index<D>& cell) {
     medium.porosity[cell] = std::max(least_porosity, fixed.porosity[cell] - fraction_[cell]);
@@ -68,9 +69,10 @@ void SurfaceCoupling<D>::map_soil_to_grid(SoilSolver<D>& soil, const PorousMediu
   set_compliance(medium);
 }
 
-/// A bed of impedance Z = rho c answers a rise of pressure dp with the velocity dp/Z. Given to the pressure solve as
-/// volume per volume, |grad phi| / (phi_0 Z), it makes the exchange of loads and motion stable for any step, where
-/// loose coupling needs dt > 2 rho_w H / (rho c) (added mass, NUMERICS C3).
+/// A bed of impedance Z = rho c answers a rise of pressure dp with the velocity dp/Z. Given to the
+/// pressure solve as volume per volume, |grad phi| / (phi_0 Z), it makes the exchange of loads and
+/// motion stable for any step, where loose coupling needs dt > 2 rho_w H / (rho c) (added mass,
+/// NUMERICS C3).
 template <int D>
 void SurfaceCoupling<D>::set_compliance(PorousMedium<D>& medium) {
   medium.give_way.fill(0.0);
@@ -79,18 +81,20 @@ void SurfaceCoupling<D>::set_compliance(PorousMedium<D>& medium) {
     double steepness2 = 0.0;
     for (int a = 0; a < D; ++a) {
       const double below = fraction_[cell.shifted(a, -1)], above = fraction_[cell.shifted(a, 1)];
-      const bool at_wall = !grid_->periodic(a) && (cell[a] == 0 || cell[a] == grid_->cells()[a] - 1);
+      const bool at_wall =
+          !grid_->periodic(a) && (cell[a] == 0 || cell[a] == grid_->cells()[a] - 1);
       const double slope = at_wall ? 0.0 : 0.5 * (above - below) / grid_->spacing()[a];
       steepness2 += slope * slope;
     }
-    medium.give_way[cell] = options_.impedance_factor * std::sqrt(steepness2) / (full_fraction_ * impedance_);
+    medium.give_way[cell] =
+        options_.impedance_factor * std::sqrt(steepness2) / (full_fraction_ * impedance_);
   });
   halo_.exchange(medium.give_way);
 }
 
 template <int D>
-void SurfaceCoupling<D>::extended_pressure(const FlowSolver<D>& flow, const SoilSolver<D>& soil, double share,
-                                           CellField<D>& pressure) {
+void SurfaceCoupling<D>::extended_pressure(const FlowSolver<D>& flow, const SoilSolver<D>& soil,
+                                           double share, CellField<D>& pressure) {
   for_each(grid_->owned(), [&](const Index<D>& cell) {
     const bool open = fraction_[cell] < open_share * full_fraction_;
     const bool wet = flow.saturation()[cell] >= 0.5;
@@ -102,18 +106,20 @@ void SurfaceCoupling<D>::extended_pressure(const FlowSolver<D>& flow, const Soil
 }
 
 template <int D>
-void SurfaceCoupling<D>::map_flow_to_soil(const FlowSolver<D>& flow, const SoilSolver<D>& soil, double end_of_step,
-                                          FluidLoad<D>& load) {
+void SurfaceCoupling<D>::map_flow_to_soil(const FlowSolver<D>& flow, const SoilSolver<D>& soil,
+                                          double end_of_step, FluidLoad<D>& load) {
   load.outlet = options_.mudline == Mudline::consistent  ? PoreOutlet::at_water_pressure
                 : options_.mudline == Mudline::load_only ? PoreOutlet::at_zero_pressure
                                                          : PoreOutlet::sealed;
   load.pressure_begin.swap(load.pressure_end);
   extended_pressure(flow, soil, load_share(end_of_step), load.pressure_end);
-  if (options_.pressure_in_time == PressureInTime::constant) load.pressure_begin.copy_values_from(load.pressure_end);
+  if (options_.pressure_in_time == PressureInTime::constant)
+    load.pressure_begin.copy_values_from(load.pressure_end);
 }
 
 template <int D>
-void SurfaceCoupling<D>::initialise(const FlowSolver<D>& flow, SoilSolver<D>& soil, FluidLoad<D>& load) {
+void SurfaceCoupling<D>::initialise(const FlowSolver<D>& flow, SoilSolver<D>& soil,
+                                    FluidLoad<D>& load) {
   map_flow_to_soil(flow, soil, 0.0, load);
   load.pressure_begin.copy_values_from(load.pressure_end);
   if (options_.mudline == Mudline::consistent) soil.set_pore_pressure(load.pressure_end);

@@ -31,7 +31,8 @@ class Clock {
   bool output_due() const {
     if (finished() || time_ == 0.0) return true;
     if (options_.output_every > 0.0 && due(time_, options_.output_every)) return true;
-    return std::any_of(options_.output_at.begin(), options_.output_at.end(), [&](double t) { return t == time_; });
+    return std::any_of(options_.output_at.begin(), options_.output_at.end(),
+                       [&](double t) { return t == time_; });
   }
 
   /// Next time at which something is due [s].

@@ -12,27 +12,28 @@
 namespace mudlark {
 
 struct TimeOptions {
-  double end = 0.0;                      ///< [s]
-  std::optional<double> step;            ///< fixed outer step [s]
-  std::optional<double> max_step;        ///< upper bound of the outer step [s]
-  double output_every = 0.0;             ///< [s] of simulated time between field outputs; 0: start and end only
-  std::vector<double> output_at;         ///< [s], further times of field output
-  double checkpoint_every = 600.0;       ///< [s] of wall-clock time
+  double end = 0.0;                ///< [s]
+  std::optional<double> step;      ///< fixed outer step [s]
+  std::optional<double> max_step;  ///< upper bound of the outer step [s]
+  double output_every =
+      0.0;  ///< [s] of simulated time between field outputs; 0: start and end only
+  std::vector<double> output_at;    ///< [s], further times of field output
+  double checkpoint_every = 600.0;  ///< [s] of wall-clock time
 };
 
 enum class GaugeQuantity {
-  water_level,    ///< height of the water surface in the column through `at` [m]
-  pressure,       ///< of the flow at `at` [Pa]
-  velocity,       ///< of the flow at `at`, one column per axis [m/s]
-  front,          ///< largest x that water reaches [m] (no `at`)
-  total_water,    ///< volume of free-flow water [m^D] (no `at`)
-  kinetic_energy, ///< of water and soil [J] (J/m in 2D) (no `at`)
-  max_speed,      ///< largest speed of the water [m/s] (no `at`)
-  settlement,     ///< downward displacement of the material that started at `at` [m]
-  displacement,   ///< of the material that started at `at`, one column per axis [m]
-  pore_pressure,  ///< of the material that started at `at` [Pa]
-  effective_stress, ///< xx, yy, zz, zx of the material that started at `at` [Pa]
-  point_porosity, ///< of the material that started at `at` [-]
+  water_level,       ///< height of the water surface in the column through `at` [m]
+  pressure,          ///< of the flow at `at` [Pa]
+  velocity,          ///< of the flow at `at`, one column per axis [m/s]
+  front,             ///< largest x that water reaches [m] (no `at`)
+  total_water,       ///< volume of free-flow water [m^D] (no `at`)
+  kinetic_energy,    ///< of water and soil [J] (J/m in 2D) (no `at`)
+  max_speed,         ///< largest speed of the water [m/s] (no `at`)
+  settlement,        ///< downward displacement of the material that started at `at` [m]
+  displacement,      ///< of the material that started at `at`, one column per axis [m]
+  pore_pressure,     ///< of the material that started at `at` [Pa]
+  effective_stress,  ///< xx, yy, zz, zx of the material that started at `at` [Pa]
+  point_porosity,    ///< of the material that started at `at` [-]
 };
 
 struct GaugeOptions {
@@ -46,11 +47,11 @@ struct CaseOptions {
   std::string title;
   DomainOptions domain;
   TimeOptions time;
-  std::optional<FlowOptions> flow;   ///< set when the case has [[water.body]]
-  std::optional<SoilOptions> soil;   ///< set when the case has [[soil]]
+  std::optional<FlowOptions> flow;  ///< set when the case has [[water.body]]
+  std::optional<SoilOptions> soil;  ///< set when the case has [[soil]]
   CouplingOptions coupling;
   std::vector<GaugeOptions> gauges;
-  std::string resolved_toml;         ///< the resolved input, every default written out
+  std::string resolved_toml;  ///< the resolved input, every default written out
 };
 
 }  // namespace mudlark

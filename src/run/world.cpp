@@ -1,0 +1,114 @@
+#include "run/world.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "flow/fixed_ground.hpp"
+
+namespace mudlark {
+namespace {
+
+/// Without flow the outer step only says how often points are sorted and loads sampled.
+constexpr double soil_steps_per_outer_step = 50.0;
+
+std::vector<double> gauge_periods(const CaseOptions& options) {
+  std::vector<double> periods;
+  for (const GaugeOptions& gauge : options.gauges)
+    if (gauge.every > 0.0) periods.push_back(gauge.every);
+  return periods;
+}
+
+/// Adds the wall-clock time of its own life to a sum.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& sum) : sum_(&sum), start_(MPI_Wtime()) {}
+  ~Stopwatch() { *sum_ += MPI_Wtime() - start_; }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double* sum_;
+  double start_;
+};
+
+}  // namespace
+
+template <int D>
+World<D>::World(const CaseOptions& options, MPI_Comm comm)
+    : options_(options),
+      grid_(options.domain, comm),
+      clock_(options.time, gauge_periods(options)),
+      fixed_(grid_),
+      medium_(grid_) {
+  if (options.flow) {
+    flow_.emplace(grid_, *options.flow);
+    fill_fixed_ground(grid_, *options.flow, fixed_);
+    fill_fixed_ground(grid_, *options.flow, medium_);
+  }
+  if (options.soil) soil_.emplace(grid_, *options.soil);
+  if (flow_ && soil_ && options.coupling.mode == CouplingMode::surface) {
+    coupling_.emplace(grid_, options.coupling, *options.flow, *soil_);
+    load_.emplace(grid_);
+  }
+}
+
+template <int D>
+void World<D>::initialise() {
+  if (soil_) soil_->initialise();
+  if (coupling_) coupling_->map_soil_to_grid(*soil_, fixed_, medium_);
+  if (flow_) flow_->initialise(medium_);
+  if (coupling_) coupling_->initialise(*flow_, *soil_, *load_);
+}
+
+template <int D>
+void World<D>::restore() {
+  if (soil_) soil_->redistribute();
+  if (coupling_) coupling_->map_soil_to_grid(*soil_, fixed_, medium_);
+}
+
+template <int D>
+double World<D>::stable_step() {
+  if (flow_) return flow_->stable_step(medium_);
+  return soil_steps_per_outer_step * soil_->stable_step();
+}
+
+template <int D>
+void World<D>::advance(double dt) {
+  if (flow_) advance_flow(dt);
+  if (soil_) advance_soil(dt);
+  clock_.advance(dt);
+  effort_.largest_step = std::max(effort_.largest_step, dt);
+  effort_.smallest_step = effort_.smallest_step > 0.0 ? std::min(effort_.smallest_step, dt) : dt;
+}
+
+template <int D>
+void World<D>::advance_flow(double dt) {
+  {
+    const Stopwatch watch(effort_.flow);
+    flow_->advance(medium_, dt);
+  }
+  const Stopwatch watch(effort_.mapping);
+  if (coupling_) coupling_->map_flow_to_soil(*flow_, *soil_, clock_.time() + dt, *load_);
+}
+
+template <int D>
+void World<D>::advance_soil(double dt) {
+  {
+    const Stopwatch watch(effort_.soil);
+    soil_->begin_step(clock_.time(), dt, coupling_ ? &*load_ : nullptr);
+    const double count = std::max(1.0, std::ceil(dt / soil_->stable_step() * (1.0 - 1e-12)));
+    const double sub = dt / count;
+    for (std::int64_t i = 0; i < static_cast<std::int64_t>(count); ++i) soil_->advance(sub);
+    effort_.soil_steps += static_cast<std::int64_t>(count);
+    effort_.largest_soil_step = std::max(effort_.largest_soil_step, sub);
+    effort_.smallest_soil_step =
+        effort_.smallest_soil_step > 0.0 ? std::min(effort_.smallest_soil_step, sub) : sub;
+  }
+  const Stopwatch watch(effort_.mapping);
+  if (coupling_) coupling_->map_soil_to_grid(*soil_, fixed_, medium_);
+}
+
+template class World<2>;
+template class World<3>;
+
+}  // namespace mudlark

@@ -1,0 +1,72 @@
+#pragma once
+/// Everything that a case consists of while it runs.
+#include <memory>
+#include <optional>
+
+#include "coupling/surface_coupling.hpp"
+#include "flow/flow_solver.hpp"
+#include "run/clock.hpp"
+#include "run/options.hpp"
+#include "soil/soil_solver.hpp"
+
+namespace mudlark {
+
+template <int D>
+class World {
+ public:
+  /// Builds grid, solvers and coupling; nothing is seeded yet. Throws InputError.
+  World(const CaseOptions& options, MPI_Comm comm);
+
+  /// The state at time zero. Collective.
+  void initialise();
+  /// Largest outer step that both solvers accept [s]. Collective.
+  double stable_step();
+  /// One outer step of the paper's flow chart: soil to grid, water, water to soil, soil in small
+  /// steps. Collective.
+  void advance(double dt);
+  /// Brings derived values up to date after a state was loaded. Collective.
+  void restore();
+
+  const CaseOptions& options() const { return options_; }
+  const Grid<D>& grid() const { return grid_; }
+  FlowSolver<D>* flow() { return flow_ ? &*flow_ : nullptr; }
+  SoilSolver<D>* soil() { return soil_ ? &*soil_ : nullptr; }
+  const PorousMedium<D>& medium() const { return medium_; }
+  Clock& clock() { return clock_; }
+
+  /// Seconds spent per phase, and counts, on this rank.
+  struct Effort {
+    double mapping = 0.0, flow = 0.0, soil = 0.0, output = 0.0;
+    std::int64_t soil_steps = 0;
+    double smallest_step = 0.0, largest_step = 0.0;            ///< outer [s]
+    double smallest_soil_step = 0.0, largest_soil_step = 0.0;  ///< [s]
+  };
+  Effort& effort() { return effort_; }
+
+  template <class Archive>
+  void archive(Archive& a) {
+    clock_.archive(a);
+    if (flow_) flow_->archive(a);
+    if (soil_) soil_->archive(a);
+    if (coupling_) coupling_->archive(a, *load_);
+  }
+
+ private:
+  void advance_flow(double dt);
+  void advance_soil(double dt);
+
+  CaseOptions options_;
+  Grid<D> grid_;
+  Clock clock_;
+  PorousMedium<D> fixed_, medium_;
+  std::optional<FlowSolver<D>> flow_;
+  std::optional<SoilSolver<D>> soil_;
+  std::optional<SurfaceCoupling<D>> coupling_;
+  std::optional<FluidLoad<D>> load_;
+  Effort effort_;
+};
+
+extern template class World<2>;
+extern template class World<3>;
+
+}  // namespace mudlark
