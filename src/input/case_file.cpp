@@ -1,0 +1,62 @@
+#include "input/case_file.hpp"
+
+#include <fmt/format.h>
+
+#include "base/errors.hpp"
+#include "input/document.hpp"
+#include "input/sections.hpp"
+
+namespace mudlark {
+namespace {
+
+void refuse_later_sections(Section& root) {
+  for (const std::string key : {"wave", "solid"})
+    if (root.has(key))
+      root.reading().report.add(
+          root.place(key), fmt::format("[[{}]] is not available yet; available: [domain], [time], "
+                                       "[water], [[water.body]], [[soil]], [[porous]], [coupling], "
+                                       "[[load]], [[gauge]], [soil_solver], [flow_solver]",
+                                       key));
+}
+
+}  // namespace
+
+CaseOptions read_case(const std::filesystem::path& file, std::span<const std::string> overrides) {
+  Reading reading;
+  const Table document = read_document(file, overrides, reading.report);
+  Record record;
+  CaseOptions options;
+  std::vector<NamedShape> grounds;
+
+  Section root(&document, {file.string(), 1}, "", reading, record);
+  options.title = root.text("title", file.stem().string());
+  read_domain(root, options);
+  const std::optional<double> courant = read_time(root, options);
+  const WaterProperties water = read_water(root, options);
+  read_porous(root, options, grounds);
+  read_soil(root, options, water, grounds);
+  read_coupling(root, options);
+  read_loads(root, options);
+  read_solvers(root, options, courant);
+  read_gauges(root, options);
+  refuse_later_sections(root);
+  check_overlaps(reading, grounds);
+  if (!root.has("soil") && !options.flow)
+    root.missing("soil or water.body",
+                 "there is nothing to compute without [[soil]] or [[water.body]]");
+  root.finish();
+
+  if (!reading.report.empty()) throw InputError(reading.report.text());
+  options.resolved_toml = record.block();
+  return options;
+}
+
+std::string read_title(const std::filesystem::path& file) {
+  Report report;
+  const Table document = read_document(file, {}, report);
+  const Entry* entry = find_entry(document, "title");
+  const auto* title = entry ? std::get_if<std::string>(&entry->value.data) : nullptr;
+  return title ? *title : file.stem().string();
+}
+
+}  // namespace mudlark

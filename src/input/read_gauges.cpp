@@ -1,0 +1,104 @@
+/// [[gauge]]
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "input/sections.hpp"
+
+namespace mudlark {
+namespace {
+
+enum class Of { water, soil, both };
+
+struct Kind {
+  GaugeQuantity quantity;
+  std::string_view name;
+  Of of;
+  bool has_place;
+};
+
+constexpr std::array<Kind, 12> kinds{{
+    {GaugeQuantity::water_level, "water_level", Of::water, true},
+    {GaugeQuantity::pressure, "pressure", Of::water, true},
+    {GaugeQuantity::velocity, "velocity", Of::water, true},
+    {GaugeQuantity::front, "front", Of::water, false},
+    {GaugeQuantity::total_water, "total_water", Of::water, false},
+    {GaugeQuantity::kinetic_energy, "kinetic_energy", Of::both, false},
+    {GaugeQuantity::max_speed, "max_speed", Of::water, false},
+    {GaugeQuantity::settlement, "settlement", Of::soil, true},
+    {GaugeQuantity::displacement, "displacement", Of::soil, true},
+    {GaugeQuantity::pore_pressure, "pore_pressure", Of::soil, true},
+    {GaugeQuantity::effective_stress, "effective_stress", Of::soil, true},
+    {GaugeQuantity::point_porosity, "point_porosity", Of::soil, true},
+}};
+
+const Kind& kind_of(GaugeQuantity quantity) {
+  return *std::find_if(kinds.begin(), kinds.end(),
+                       [&](const Kind& kind) { return kind.quantity == quantity; });
+}
+
+/// Soil within a cell of the gauge: a gauge may stand exactly on a body's edge.
+bool near_soil(const Reading& reading, const SoilOptions& soil, const Point3& at) {
+  Point3 lower = at, upper = at;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const double reach = std::max(0.5 * reading.spacing[a], 1e-12);
+    lower[a] -= reach, upper[a] += reach;
+  }
+  return std::any_of(soil.bodies.begin(), soil.bodies.end(), [&](const SoilBody& body) {
+    return fraction_inside(body.shape, lower, upper, reading.dimension) > 0.0;
+  });
+}
+
+/// False with a message when the gauge cannot measure there.
+void read_place(Section& section, const CaseOptions& options, const Kind& kind,
+                GaugeOptions& gauge) {
+  const Reading& reading = section.reading();
+  const auto axes = static_cast<std::size_t>(reading.dimension);
+  const auto at = section.numbers("at", quantity::length, axes);
+  if (at.size() != axes) return;
+  gauge.at = point_from_axes(at);
+  if (!reading.domain) return;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const double slack = 1e-9 * (reading.domain->upper[a] - reading.domain->lower[a]);
+    if (gauge.at[a] < reading.domain->lower[a] - slack ||
+        gauge.at[a] > reading.domain->upper[a] + slack)
+      return section.fail("at", "the gauge stands outside the domain");
+  }
+  if (kind.of == Of::soil && options.soil && reading.report.empty() &&
+      !near_soil(reading, *options.soil, gauge.at))
+    section.fail("at", "no soil starts there, and this gauge follows soil");
+}
+
+}  // namespace
+
+void read_gauges(Section& root, CaseOptions& options) {
+  std::vector<Choice<GaugeQuantity>> choices;
+  for (const Kind& kind : kinds) choices.push_back({std::string(kind.name), kind.quantity});
+  std::vector<std::string> names;
+  for (Section& section : root.tables("gauge")) {
+    GaugeOptions gauge;
+    gauge.name = read_name(section, names);
+    const std::size_t before = root.reading().report.size();
+    gauge.quantity = section.choice<GaugeQuantity>(
+        "quantity", choices, {}, {"section_force", "force", "discharge", "total_mass"});
+    const bool known = root.reading().report.size() == before;
+    const Kind& kind = kind_of(gauge.quantity);
+    if (known && kind.of == Of::water && !options.flow)
+      section.fail("quantity", "it measures flowing water, and the case has no [[water.body]]");
+    if (known && kind.of == Of::soil && !root.has("soil"))
+      section.fail("quantity", "it measures soil, and the case has no [[soil]]");
+    if (!known)
+      section.has("at");
+    else if (kind.has_place)
+      read_place(section, options, kind, gauge);
+    else
+      section.forbid("at", fmt::format("{} is measured in the whole domain", kind.name));
+    gauge.every =
+        section.number("every", quantity::time,
+                       not_negative("the time between values; 0 for every step"), gauge.every);
+    section.finish();
+    options.gauges.push_back(std::move(gauge));
+  }
+}
+
+}  // namespace mudlark

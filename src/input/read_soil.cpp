@@ -1,0 +1,174 @@
+/// [[soil]]
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "input/sections.hpp"
+
+namespace mudlark {
+namespace {
+
+SoilLawOptions read_law(Section& soil) {
+  Section section = soil.table("law", Record::Form::block, true);
+  LinearElasticOptions law;
+  if (!soil.has("law")) return law;
+  section.choice<bool>(
+      "type", {{"linear-elastic", true}}, {},
+      {"neo-hookean", "mohr-coulomb", "drucker-prager", "modified-cam-clay", "tresca", "von-mises",
+       "hypoplastic", "sanisand", "umat", "mu-i", "bingham"});
+  law.young_modulus =
+      section.number("young_modulus", quantity::stiffness,
+                     positive("a stiffness lies above 0", "Loose sand has about 1e7 Pa."));
+  law.poisson_ratio = section.number("poisson_ratio", quantity::number,
+                                     {.lower = -1.0,
+                                      .upper = 0.5,
+                                      .lower_included = false,
+                                      .upper_included = false,
+                                      .reason = "an isotropic elastic solid needs -1 < nu < 0.5",
+                                      .cure = "Sand is usually 0.2-0.35."});
+  law.strain = section.choice<StrainMeasure>("strain",
+                                             {{"hencky", StrainMeasure::hencky},
+                                              {"log", StrainMeasure::logarithmic},
+                                              {"objective", StrainMeasure::objective},
+                                              {"small", StrainMeasure::small}},
+                                             law.strain);
+  section.finish();
+  return law;
+}
+
+int read_points_per_cell(Section& section) {
+  const int dimension = section.reading().dimension;
+  const int fallback = dimension == 2 ? 4 : 8;
+  const std::string possible = dimension == 2 ? "4, 9, 16, 25 or 36" : "8, 27, 64, 125 or 216";
+  const Bounds bounds{.lower = static_cast<double>(fallback),
+                      .upper = std::pow(6, dimension),
+                      .reason = "points stand in rows: " + possible};
+  const int points = section.integer("points_per_cell", bounds, fallback);
+  const auto per_axis = static_cast<int>(std::lround(std::pow(points, 1.0 / dimension)));
+  if (static_cast<int>(std::lround(std::pow(per_axis, dimension))) != points)
+    section.fail("points_per_cell", bounds.reason);
+  return points;
+}
+
+GeostaticStress read_geostatic(Section& section) {
+  GeostaticStress stress;
+  section.choice<bool>("type", {{"geostatic", true}});
+  const auto lateral = section.number_if_set(
+      "lateral_coefficient", quantity::number,
+      not_negative("the ratio of horizontal to vertical effective stress", "Often nu/(1-nu)."));
+  stress.lateral_coefficient = lateral.value_or(stress.lateral_coefficient);
+  return stress;
+}
+
+SymTensor read_tensor(Section& section) {
+  SymTensor stress;
+  const auto component = [&](std::string_view key) {
+    return section.number(key, quantity::stress, {}, 0.0);
+  };
+  stress.xx = component("xx"), stress.yy = component("yy"), stress.zz = component("zz");
+  stress.zx = component("zx");
+  if (section.reading().dimension == 3) stress.xy = component("xy"), stress.yz = component("yz");
+  return stress;
+}
+
+/// "zero", "geostatic", { type = "geostatic", ... } or components.
+void read_initial_stress(Section& soil, SoilBody& body) {
+  const Value* value = soil.raw("initial_stress");
+  const auto* word = value ? std::get_if<std::string>(&value->data) : nullptr;
+  const auto* table = value ? std::get_if<Table>(&value->data) : nullptr;
+  if (!value || (word && *word == "zero")) {
+    soil.record().value("initial_stress", "\"zero\"");
+  } else if (word && *word == "geostatic") {
+    body.initial_stress = GeostaticStress{};
+    soil.record().value("initial_stress", "\"geostatic\"");
+  } else if (table) {
+    Record& record =
+        soil.record().child("initial_stress", Record::Form::inline_table, quantity::stress.unit);
+    Section section = soil.over(*table, soil.place("initial_stress"), "initial_stress", record);
+    if (find_entry(*table, "type"))
+      body.initial_stress = read_geostatic(section);
+    else
+      body.initial_stress = read_tensor(section);
+    section.finish();
+  } else {
+    soil.fail(
+        "initial_stress",
+        "expected \"zero\", \"geostatic\", { type = \"geostatic\", lateral_coefficient = 0.5 } or "
+        "effective stresses { xx = ..., yy = ..., zz = ... }, tension positive");
+  }
+}
+
+void read_pore_water(Section& section, SoilBody& body, const WaterProperties& water) {
+  body.pore_water = section.choice<PoreWater>(
+      "pore_water", {{"two-phase", PoreWater::two_phase}, {"none", PoreWater::none}},
+      body.pore_water, {"unified"});
+  const bool wet = body.pore_water == PoreWater::two_phase;
+  if (wet)
+    section.choice<bool>("formulation", {{"u-w", true}}, true, {"u-p", "u-w-p"});
+  else
+    section.forbid("formulation", "pore_water = \"none\" has no pore water to formulate");
+  if (wet && !water.bulk_modulus) {
+    const std::string reason =
+        "formulation u-w needs compressible pore water: water.bulk_modulus is missing";
+    const std::string cure = "Write bulk_modulus under [water], for example \"2.15e9 Pa\".";
+    if (section.has("pore_water"))
+      section.fail("pore_water", reason, cure);
+    else
+      section.missing("pore_water", "it is \"two-phase\" then, and " + reason + ". " + cure);
+  }
+  body.intrinsic_permeability =
+      read_permeability(section, water.density, water.viscosity, wet).value_or(0.0);
+  body.permeability_law = section.choice<PermeabilityLaw>(
+      "permeability_law",
+      {{"constant", PermeabilityLaw::constant}, {"kozeny-carman", PermeabilityLaw::kozeny_carman}},
+      body.permeability_law);
+  if (section.has("initial_pore_pressure")) {
+    if (wet)
+      body.initial_pore_pressure = section.varying("initial_pore_pressure", quantity::pressure, {});
+    else
+      section.forbid("initial_pore_pressure", "pore_water = \"none\" has no pore pressure");
+  }
+}
+
+}  // namespace
+
+void read_soil(Section& root, CaseOptions& options, const WaterProperties& water,
+               std::vector<NamedShape>& grounds) {
+  std::vector<Section> sections = root.tables("soil");
+  if (sections.empty()) return;
+  SoilOptions soil;
+  soil.water_density = water.density;
+  soil.water_viscosity = water.viscosity;
+  soil.water_bulk_modulus = water.bulk_modulus.value_or(soil.water_bulk_modulus);
+  std::vector<std::string> names;
+  for (Section& section : sections) {
+    SoilBody body;
+    body.name = read_name(section, names);
+    const auto shape = read_shape(section, "shape");
+    body.grain_density = section.number(
+        "grain_density", quantity::density,
+        positive("a density lies above 0", "Quartz has 2650 kg/m3."), body.grain_density);
+    body.porosity =
+        section.number("porosity", quantity::number,
+                       {.lower = 0.0,
+                        .upper = 1.0,
+                        .lower_included = false,
+                        .upper_included = false,
+                        .reason = "the share of pores in the volume lies between 0 and 1",
+                        .cure = "Sand has 0.35-0.45."});
+    body.points_per_cell = read_points_per_cell(section);
+    read_pore_water(section, body, water);
+    read_initial_stress(section, body);
+    body.initial_velocity = section.varying_per_axis("initial_velocity", quantity::velocity);
+    body.law = read_law(section);
+    section.finish();
+    if (shape) {
+      body.shape = *shape;
+      grounds.push_back({fmt::format("soil \"{}\"", body.name), *shape, section.place("shape")});
+    }
+    soil.bodies.push_back(std::move(body));
+  }
+  options.soil = std::move(soil);
+}
+
+}  // namespace mudlark

@@ -1,0 +1,121 @@
+/// [soil_solver], [flow_solver], [coupling], [[load]]
+#include <fmt/format.h>
+
+#include "input/sections.hpp"
+
+namespace mudlark {
+namespace {
+
+Bounds share(double upper, std::string reason) {
+  return {.lower = 0.0, .upper = upper, .lower_included = false, .reason = std::move(reason)};
+}
+
+void read_soil_solver(Section& root, SoilOptions& soil, std::optional<double> courant) {
+  Section section = root.table("soil_solver", Record::Form::block);
+  soil.kernel = section.choice<Kernel>("kernel",
+                                       {{"linear", Kernel::linear},
+                                        {"quadratic", Kernel::quadratic},
+                                        {"composite", Kernel::composite}},
+                                       soil.kernel);
+  soil.transfer = section.choice<Transfer>(
+      "transfer", {{"flip", Transfer::flip}, {"apic", Transfer::apic}}, soil.transfer);
+  soil.flip_fraction =
+      section.number("flip_fraction", quantity::number,
+                     {.lower = 0.0, .upper = 1.0, .reason = "a share between 0 (PIC) and 1 (FLIP)"},
+                     soil.flip_fraction);
+  soil.damping = section.number("damping", quantity::number,
+                                {.lower = 0.0,
+                                 .upper = 1.0,
+                                 .upper_included = false,
+                                 .reason = "a coefficient from 0 to below 1"},
+                                soil.damping);
+  soil.courant = section.number("courant", quantity::number,
+                                share(1.0, "a share of the stable step, above 0 and at most 1"),
+                                courant.value_or(soil.courant));
+  soil.max_step =
+      section.number_if_set("max_step", quantity::time, positive("a step needs a length above 0"));
+  soil.load_form = section.choice<LoadForm>(
+      "load_form", {{"virtual-stress", LoadForm::virtual_stress}, {"facets", LoadForm::facets}},
+      soil.load_form);
+  section.finish();
+}
+
+void read_flow_solver(Section& root, FlowOptions& flow, std::optional<double> courant) {
+  Section section = root.table("flow_solver", Record::Form::block);
+  const Bounds bounds =
+      share(0.5, "the sharp water surface allows a Courant number above 0 and at most 0.5");
+  if (courant && !section.has("courant") && !bounds.admits(*courant))
+    root.reading().report.add(root.place("time"),
+                              fmt::format("time.courant = {} is not possible\n  ({}). Write "
+                                          "courant under [flow_solver].",
+                                          *courant, bounds.reason));
+  flow.courant =
+      section.number("courant", quantity::number, bounds, courant.value_or(flow.courant));
+  flow.pressure_tolerance = section.number(
+      "pressure_tolerance", quantity::number,
+      share(
+          1e-2,
+          "the bound on what the pressure solver leaves of the divergence, above 0, at most 0.01"),
+      flow.pressure_tolerance);
+  flow.advection = section.flag("advection", flow.advection);
+  section.finish();
+}
+
+}  // namespace
+
+void read_solvers(Section& root, CaseOptions& options, std::optional<double> courant) {
+  Report& report = root.reading().report;
+  if (options.soil)
+    read_soil_solver(root, *options.soil, courant);
+  else if (root.has("soil_solver"))
+    report.add(root.place("soil_solver"), "[soil_solver] is not used: the case has no [[soil]]");
+  if (options.flow)
+    read_flow_solver(root, *options.flow, courant);
+  else if (root.has("flow_solver"))
+    report.add(root.place("flow_solver"),
+               "[flow_solver] is not used: the case has no [[water.body]]");
+}
+
+void read_coupling(Section& root, CaseOptions& options) {
+  if (!root.has("coupling") && !(options.flow && options.soil)) return;
+  Section section = root.table("coupling", Record::Form::block);
+  CouplingOptions& coupling = options.coupling;
+  coupling.mode = section.choice<CouplingMode>(
+      "mode", {{"none", CouplingMode::none}, {"surface", CouplingMode::surface}}, coupling.mode,
+      {"unified"});
+  if (coupling.mode == CouplingMode::surface && !(options.flow && options.soil))
+    section.fail("mode", fmt::format("it joins flowing water and soil, and the case has no {}",
+                                     options.soil ? "[[water.body]]" : "[[soil]]"));
+  coupling.mudline = section.choice<Mudline>("mudline",
+                                             {{"consistent", Mudline::consistent},
+                                              {"load-only", Mudline::load_only},
+                                              {"membrane", Mudline::membrane}},
+                                             coupling.mudline);
+  coupling.pressure_in_time = section.choice<PressureInTime>(
+      "pressure_in_time",
+      {{"linear", PressureInTime::linear}, {"constant", PressureInTime::constant}},
+      coupling.pressure_in_time);
+  coupling.ramp = section.number("ramp", quantity::time, not_negative("a time; 0 loads at once"),
+                                 coupling.ramp);
+  coupling.added_mass_factor = section.number(
+      "added_mass_factor", quantity::number,
+      not_negative("1 relaxes as the water over the soil asks for, 0 couples loosely"), coupling.added_mass_factor);
+  section.finish();
+}
+
+void read_loads(Section& root, CaseOptions& options) {
+  std::vector<Section> sections = root.tables("load");
+  if (!sections.empty() && !options.soil)
+    return root.reading().report.add(root.place("load"),
+                                     "[[load]] presses on soil, but there is no [[soil]]");
+  std::vector<std::string> names;
+  for (Section& section : sections) {
+    SurfaceLoad load;
+    load.name = read_name(section, names);
+    load.pressure = section.varying("pressure", quantity::pressure, {});
+    section.finish();
+    options.soil->loads.push_back(std::move(load));
+  }
+}
+
+}  // namespace mudlark

@@ -1,0 +1,54 @@
+#pragma once
+/// The readers of the case file's sections, one source file each.
+#include <optional>
+#include <string>
+
+#include "input/section.hpp"
+#include "run/options.hpp"
+
+namespace mudlark {
+
+/// [water], which flow and pore water share.
+struct WaterProperties {
+  double density = FlowOptions{}.density;
+  double viscosity = FlowOptions{}.viscosity;
+  std::optional<double> bulk_modulus;
+};
+
+/// A shape of the case and the key that it was written under.
+struct NamedShape {
+  std::string what;  ///< "soil \"column\""
+  Shape shape;
+  Place place;
+};
+
+void read_domain(Section& root, CaseOptions& options);
+/// Returns [time] courant, which holds for both solvers.
+std::optional<double> read_time(Section& root, CaseOptions& options);
+WaterProperties read_water(Section& root, CaseOptions& options);
+void read_porous(Section& root, CaseOptions& options, std::vector<NamedShape>& grounds);
+void read_soil(Section& root, CaseOptions& options, const WaterProperties& water,
+               std::vector<NamedShape>& grounds);
+void read_loads(Section& root, CaseOptions& options);
+void read_solvers(Section& root, CaseOptions& options, std::optional<double> courant);
+void read_coupling(Section& root, CaseOptions& options);
+void read_gauges(Section& root, CaseOptions& options);
+
+/// The shape below `key`, inside the domain; nothing after a mistake.
+std::optional<Shape> read_shape(Section& section, std::string_view key);
+/// kappa [m2] from intrinsic_permeability or, with the water's density [kg/m3] and viscosity [Pa
+/// s], from hydraulic_conductivity k = kappa rho g / mu with g = 9.81 m/s2 whatever the case's
+/// gravity.
+std::optional<double> read_permeability(Section& section, double density, double viscosity,
+                                        bool required);
+/// Reports bodies of ground that fill the same space.
+void check_overlaps(Reading& reading, const std::vector<NamedShape>& grounds);
+
+/// A position given per axis, as (x, y, z).
+Point3 point_from_axes(const std::vector<double>& axes);
+
+/// A name that can be a file's: letters, digits, space, _ - . +; reports others, and names used
+/// twice.
+std::string read_name(Section& section, std::vector<std::string>& used);
+
+}  // namespace mudlark
