@@ -4,9 +4,7 @@ target_compile_options(mudlark_compile_options INTERFACE -Wall -Wextra -Wpedanti
 # GCC 12 warns about its own AVX-512 intrinsics when Eigen inlines them (GCC bug 105593).
 target_compile_options(mudlark_compile_options INTERFACE -Wno-maybe-uninitialized)
 if(MUDLARK_WARNINGS_AS_ERRORS)
-  # GCC 12 reports its own AVX-512 intrinsics (used by Eigen) as uninitialised: GCC bug 105593.
-  target_compile_options(mudlark_compile_options INTERFACE -Werror -Wno-error=maybe-uninitialized
-                                                           -Wno-error=uninitialized)
+  target_compile_options(mudlark_compile_options INTERFACE -Werror)
 endif()
 if(MUDLARK_NATIVE)
   target_compile_options(mudlark_compile_options INTERFACE -march=native)
