@@ -15,8 +15,7 @@ struct CouplingOptions {
   Mudline mudline = Mudline::consistent;
   PressureInTime pressure_in_time = PressureInTime::linear;
   double ramp = 0.0;  ///< [s] over which the water's load is brought onto the soil (half cosine)
-  double impedance_factor =
-      1.0;  ///< scales how easily the bed gives way in the pressure solve; 0: loose coupling
+  double added_mass_factor = 1.0;  ///< scales the relaxation against added mass; 0: loose coupling
 };
 
 }  // namespace mudlark

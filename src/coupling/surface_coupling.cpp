@@ -24,19 +24,19 @@ SurfaceCoupling<D>::SurfaceCoupling(const Grid<D>& grid, const CouplingOptions& 
       resistance_(grid, "resistance", "Pa s/m2"),
       open_(grid, "open", "1"),
       wet_(grid, "wet", "1"),
-      water_density_(flow.density) {
+      water_density_(flow.density),
+      bed_velocity_(grid, "bed velocity", "m/s") {
   const SoilOptions& soils = soil.options();
   full_fraction_ = 1.0;
   impedance_ = 0.0;
   for (std::size_t b = 0; b < soils.bodies.size(); ++b) {
     const SoilBody& body = soils.bodies[b];
-    const double n = body.porosity, bulk = soils.water_bulk_modulus / n;
+    const double n = body.porosity;
     const bool wet = body.pore_water == PoreWater::two_phase;
     const double density = (1.0 - n) * body.grain_density + (wet ? n * soils.water_density : 0.0);
-    const double modulus = soil.law(b).wave_modulus({}, {}) + (wet ? bulk : 0.0);
+    const double impedance = std::sqrt(density * soil.law(b).shear_modulus());
     full_fraction_ = std::min(full_fraction_, 1.0 - n);
-    const double impedance = std::sqrt(density * modulus);
-    impedance_ = impedance_ == 0.0 ? impedance : std::min(impedance_, impedance);
+    impedance_ = b == 0 ? impedance : std::min(impedance_, impedance);
   }
 }
 
@@ -48,48 +48,47 @@ double SurfaceCoupling<D>::load_share(double time) const {
 
 template <int D>
 void SurfaceCoupling<D>::map_soil_to_grid(SoilSolver<D>& soil, const PorousMedium<D>& fixed,
-                                          PorousMedium<D>& medium) {
+                                          double dt, PorousMedium<D>& medium) {
   soil.solid_fraction(fraction_, resistance_);
   for_each(grid_->local(), [&](const Index<D>& cell) {
     medium.porosity[cell] = std::max(least_porosity, fixed.porosity[cell] - fraction_[cell]);
   });
   const FaceVector<D>& velocity = soil.mean_grain_velocity();
+  const double share = 1.0 / (1.0 + 2.0 * options_.added_mass_factor * added_mass(dt));
   for (int a = 0; a < D; ++a) {
     IndexBox<D> faces = grid_->local();
     ++faces.lower[a];
     for_each(faces, [&](const Index<D>& face) {
       const double solid = 0.5 * (fraction_[face.shifted(a, -1)] + fraction_[face]);
-      medium.grain_velocity[a][face] = velocity[a][face];
-      medium.grain_flux[a][face] = solid * velocity[a][face];
       const double resistance = 0.5 * (resistance_[face.shifted(a, -1)] + resistance_[face]);
+      double& bed = bed_velocity_[a][face];
+      bed += share * (velocity[a][face] - bed);
+      medium.grain_velocity[a][face] = bed;
+      medium.grain_flux[a][face] = solid * bed;
       medium.linear_drag[a][face] = fixed.linear_drag[a][face] + resistance;
       medium.quadratic_drag[a][face] = fixed.quadratic_drag[a][face];
     });
   }
-  set_compliance(medium);
 }
 
-/// A bed of impedance Z = rho c answers a rise of pressure dp with the velocity dp/Z. Given to the
-/// pressure solve as volume per volume, |grad phi| / (phi_0 Z), it makes the exchange of loads and
-/// motion stable for any step, where loose coupling needs dt > 2 rho_w H / (rho c) (added mass,
-/// NUMERICS C3).
 template <int D>
-void SurfaceCoupling<D>::set_compliance(PorousMedium<D>& medium) {
-  medium.give_way.fill(0.0);
-  if (options_.impedance_factor == 0.0) return;
-  for_each(grid_->owned(), [&](const Index<D>& cell) {
-    double steepness2 = 0.0;
-    for (int a = 0; a < D; ++a) {
-      const double below = fraction_[cell.shifted(a, -1)], above = fraction_[cell.shifted(a, 1)];
-      const bool at_wall =
-          !grid_->periodic(a) && (cell[a] == 0 || cell[a] == grid_->cells()[a] - 1);
-      const double slope = at_wall ? 0.0 : 0.5 * (above - below) / grid_->spacing()[a];
-      steepness2 += slope * slope;
-    }
-    medium.give_way[cell] =
-        options_.impedance_factor * std::sqrt(steepness2) / (full_fraction_ * impedance_);
-  });
-  halo_.exchange(medium.give_way);
+double SurfaceCoupling<D>::added_mass(double dt) const {
+  return dt > 0.0 ? water_density_ * water_depth_ / (impedance_ * dt) : 0.0;
+}
+
+/// Depth of the water over the soil: the largest pressure in the open cells that touch soil, as a
+/// column.
+template <int D>
+void SurfaceCoupling<D>::measure_depth(const FlowSolver<D>& flow) {
+  double depth = 0.0, width = 0.0;
+  const double weight = water_density_ * std::abs(grid_->gravity()[D - 1]);
+  for (int a = 0; a < D - 1; ++a) width = std::max(width, grid_->cells()[a] * grid_->spacing()[a]);
+  if (weight > 0.0)
+    for_each(grid_->owned(), [&](const Index<D>& cell) {
+      if (open_[cell] > 0.0 && fraction_[cell] > 0.0)
+        depth = std::max(depth, flow.pressure()[cell] / weight);
+    });
+  water_depth_ = std::min(max_over_ranks(*grid_, depth), width / 3.14159265358979323846);
 }
 
 template <int D>
@@ -113,6 +112,7 @@ void SurfaceCoupling<D>::map_flow_to_soil(const FlowSolver<D>& flow, const SoilS
                                                          : PoreOutlet::sealed;
   load.pressure_begin.swap(load.pressure_end);
   extended_pressure(flow, soil, load_share(end_of_step), load.pressure_end);
+  measure_depth(flow);
   if (options_.pressure_in_time == PressureInTime::constant)
     load.pressure_begin.copy_values_from(load.pressure_end);
 }

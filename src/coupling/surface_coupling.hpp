@@ -16,10 +16,23 @@ class SurfaceCoupling {
   SurfaceCoupling(const Grid<D>& grid, const CouplingOptions& options, const FlowOptions& flow,
                   const SoilSolver<D>& soil);
 
-  /// `fixed` is the ground that does not move (rubble, filters).
-  /// What the water feels of the soil: porosity 1 - phi_c, motion of the grains, Darcy drag, and
-  /// how easily the bed gives way to pressure. Collective.
-  void map_soil_to_grid(SoilSolver<D>& soil, const PorousMedium<D>& fixed, PorousMedium<D>& medium);
+  /// What the water feels of the soil: porosity 1 - phi_c, motion of the grains, Darcy drag.
+  /// `fixed` is the ground that does not move (rubble, filters); `dt` the flow step just taken, 0
+  /// at the start. Collective.
+  ///
+  /// Added mass (NUMERICS C3): water of depth H rides on a bed of impedance Z, so loose coupling
+  /// multiplies changes of the bed's velocity by -a, a = rho_w H / (Z dt), and diverges for a >
+  /// 1/2. Therefore the water sees the bed's velocity through f <- f + omega (v_s - f), omega =
+  /// 1/(1 + 2 a), stable for any a (docs/methods/coupling.md); volume that lags behind comes in by
+  /// the drift feedback of the flow.
+  void map_soil_to_grid(SoilSolver<D>& soil, const PorousMedium<D>& fixed, double dt,
+                        PorousMedium<D>& medium);
+
+  /// a = rho_w H / (Z dt) of the present water over the soil. H is the depth of water over the
+  /// soil, or less when the domain is narrow: a wave of the bed of length 2 L moves water up to
+  /// L/pi above it. Z = sqrt(rho G), the softest answer that the undrained bed gives. Collective in
+  /// `measure_depth`, called by map_flow_to_soil.
+  double added_mass(double dt) const;
 
   /// What the soil feels of the water: the pressure on its surface at both ends of the flow step
   /// just taken. Collective.
@@ -36,10 +49,12 @@ class SurfaceCoupling {
   template <class Archive>
   void archive(Archive& a, FluidLoad<D>& load) {
     a.cells("coupling/water pressure", load.pressure_end);
+    a.faces("coupling/bed velocity", bed_velocity_);
+    a.number("coupling/water depth", water_depth_);
   }
 
  private:
-  void set_compliance(PorousMedium<D>& medium);
+  void measure_depth(const FlowSolver<D>& flow);
   void extended_pressure(const FlowSolver<D>& flow, const SoilSolver<D>& soil, double share,
                          CellField<D>& pressure);
 
@@ -50,9 +65,11 @@ class SurfaceCoupling {
   CellField<D> fraction_;    ///< grain volume per cell volume phi_c [-]
   CellField<D> resistance_;  ///< mu / kappa, fading at the rim [Pa s/m2]
   CellField<D> open_, wet_;
-  double water_density_;  ///< [kg/m3]
-  double full_fraction_;  ///< solid fraction of undisturbed soil [-]
-  double impedance_;      ///< rho c of the undrained soil [Pa s/m]
+  double water_density_;        ///< [kg/m3]
+  double full_fraction_;        ///< solid fraction of undisturbed soil [-]
+  double impedance_;            ///< sqrt(rho G) of the softest soil [Pa s/m]
+  double water_depth_ = 0.0;    ///< of water over the soil, bounded by the width of the domain [m]
+  FaceVector<D> bed_velocity_;  ///< velocity of the grains as the water sees it [m/s]
 };
 
 extern template class SurfaceCoupling<2>;

@@ -14,6 +14,7 @@ class LinearElastic final : public SoilModel {
   double wave_modulus(std::span<const SymTensor>, std::span<const double>) const override {
     return lame_ + 2.0 * shear_;
   }
+  double shear_modulus() const override { return shear_; }
   SymTensor elastic_strain(const SymTensor& stress) const override;
   std::size_t update_stress(const MaterialPoints& points) const override;
 

@@ -27,6 +27,8 @@ class SoilModel {
   /// Largest stiffness that a compression wave meets in this state [Pa] (the constrained modulus).
   virtual double wave_modulus(std::span<const SymTensor> stress,
                               std::span<const double> history) const = 0;
+  /// Elastic shear modulus in the stress-free state [Pa].
+  virtual double shear_modulus() const = 0;
   /// Elastic strain [-] that belongs to a stress [Pa]; the engine starts from initial stresses with
   /// it.
   virtual SymTensor elastic_strain(const SymTensor& stress) const = 0;

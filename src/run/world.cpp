@@ -55,7 +55,7 @@ World<D>::World(const CaseOptions& options, MPI_Comm comm)
 template <int D>
 void World<D>::initialise() {
   if (soil_) soil_->initialise();
-  if (coupling_) coupling_->map_soil_to_grid(*soil_, fixed_, medium_);
+  if (coupling_) coupling_->map_soil_to_grid(*soil_, fixed_, 0.0, medium_);
   if (flow_) flow_->initialise(medium_);
   if (coupling_) coupling_->initialise(*flow_, *soil_, *load_);
 }
@@ -63,7 +63,7 @@ void World<D>::initialise() {
 template <int D>
 void World<D>::restore() {
   if (soil_) soil_->redistribute();
-  if (coupling_) coupling_->map_soil_to_grid(*soil_, fixed_, medium_);
+  if (coupling_) coupling_->map_soil_to_grid(*soil_, fixed_, 0.0, medium_);
 }
 
 template <int D>
@@ -105,7 +105,7 @@ void World<D>::advance_soil(double dt) {
         effort_.smallest_soil_step > 0.0 ? std::min(effort_.smallest_soil_step, sub) : sub;
   }
   const Stopwatch watch(effort_.mapping);
-  if (coupling_) coupling_->map_soil_to_grid(*soil_, fixed_, medium_);
+  if (coupling_) coupling_->map_soil_to_grid(*soil_, fixed_, dt, medium_);
 }
 
 template class World<2>;

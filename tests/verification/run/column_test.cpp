@@ -18,7 +18,7 @@ CaseOptions column(double water_height, double impedance_factor, Mudline mudline
   c.domain.gravity = {0, -9.81, 0};
   c.domain.walls[1][0] = Wall::no_slip;
   c.domain.walls[1][1] = Wall::open;
-  c.time.end = 2.0;
+  c.time.end = 200.0;
   FlowOptions flow;
   flow.bodies.push_back({Shape{BoxShape{{0, -1, 0}, {0.1, 1, 1.0 + water_height}}}, {}});
   c.flow = flow;
@@ -34,7 +34,7 @@ CaseOptions column(double water_height, double impedance_factor, Mudline mudline
   c.soil = soil;
   c.coupling.mode = CouplingMode::surface;
   c.coupling.mudline = mudline;
-  c.coupling.impedance_factor = impedance_factor;
+  c.coupling.added_mass_factor = impedance_factor;
   c.coupling.ramp = 0.05;
   return c;
 }
