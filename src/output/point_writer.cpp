@@ -5,13 +5,15 @@
 namespace mudlark {
 namespace {
 
-std::vector<double> with_zero_y(const double* values, std::size_t points) {
-  std::vector<double> widened(3 * points, 0.0);
-  for (std::size_t p = 0; p < points; ++p) {
-    widened[3 * p] = values[2 * p];
-    widened[3 * p + 2] = values[2 * p + 1];
+/// Point after point; a vector of two components becomes (x, 0, z).
+std::vector<double> interleaved(const PointArray& array, std::size_t points) {
+  const std::size_t given = array.components.size(), width = given == 2 ? 3 : given;
+  std::vector<double> rows(width * points, 0.0);
+  for (std::size_t c = 0; c < given; ++c) {
+    const std::size_t to = given == 2 && c == 1 ? 2 : c;
+    for (std::size_t p = 0; p < points; ++p) rows[width * p + to] = array.components[c][p];
   }
-  return widened;
+  return rows;
 }
 
 }  // namespace
@@ -36,12 +38,10 @@ void PointWriter::write(double time, std::int64_t step, std::span<const std::int
     output.count = total;
     store_array(file, output, {"", "id", "1", 1, true}, Slab::rows(total, first, mine), ids.data());
     for (const PointArray& array : arrays) {
-      std::vector<double> widened;
-      if (array.components == 2) widened = with_zero_y(array.values, ids.size());
-      const int components = array.components == 2 ? 3 : array.components;
-      store_array(file, output, {"", array.name, array.unit, components, false},
-                  Slab::rows(total, first, mine, components),
-                  array.components == 2 ? widened.data() : array.values);
+      const auto given = static_cast<int>(array.components.size());
+      const int width = given == 2 ? 3 : given;
+      store_array(file, output, {"", array.name, array.unit, width, false},
+                  Slab::rows(total, first, mine, width), interleaved(array, ids.size()).data());
     }
   });
 }

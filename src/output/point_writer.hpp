@@ -11,12 +11,12 @@
 
 namespace mudlark {
 
-/// One quantity of this rank's points; the values lie point after point.
+/// One quantity of this rank's points: an array of one value per point for each component.
+/// 1 component: scalar; 2: vector (x z) in 2D; 3: vector; 6: symmetric tensor xx yy zz xy yz zx.
+/// Other numbers of components are stored, but not shown to ParaView.
 struct PointArray {
   std::string name, unit;
-  int components =
-      1;  ///< 1 scalar; 2 vector (x z) in 2D; 3 vector; 6 symmetric tensor xx yy zz xy yz zx
-  const double* values = nullptr;
+  std::vector<const double*> components;
 };
 
 /// The number of points may differ from rank to rank and from time to time; their order in the file

@@ -119,7 +119,7 @@ std::string xdmf_of_points(const std::string& data_file, const std::vector<Store
                                                     tensor_components[static_cast<std::size_t>(c)]),
                                         array.unit),
                                   "Scalar", "Node", tensor_component(data_file, output, array, c));
-      else
+      else if (array.components == 1 || array.components == 3)
         attributes += attribute(name, array.components == 3 ? "Vector" : "Scalar", "Node",
                                 data_item(data_file, output, array, rows));
     }

@@ -151,16 +151,20 @@ TEST(PointWriter, WritesChangingNumbersOfPointsOfAllRanks) {
   for (int output = 0; output < 2; ++output) {
     const int mine = rank == 1 ? 0 : 3 + output;  // one rank without points
     std::vector<std::int64_t> ids;
-    std::vector<double> position, pressure, stress;
+    std::vector<double> x, z, pressure;
+    std::array<std::vector<double>, 6> stress;
     for (int p = 0; p < mine; ++p) {
       ids.push_back(100 * rank + p);
-      position.insert(position.end(), {rank + 0.25, p + 0.5});
+      x.push_back(rank + 0.25);
+      z.push_back(p + 0.5);
       pressure.push_back(1000.0 * rank + p);
-      for (int c = 0; c < 6; ++c) stress.push_back(10.0 * p + c);
+      for (std::size_t c = 0; c < 6; ++c) stress[c].push_back(10.0 * p + static_cast<double>(c));
     }
-    const std::array<PointArray, 3> arrays{PointArray{"position", "m", 2, position.data()},
-                                           PointArray{"pore pressure", "Pa", 1, pressure.data()},
-                                           PointArray{"effective stress", "Pa", 6, stress.data()}};
+    PointArray tensor{"effective stress", "Pa", {}};
+    for (const auto& component : stress) tensor.components.push_back(component.data());
+    const std::array<PointArray, 3> arrays{PointArray{"position", "m", {x.data(), z.data()}},
+                                           PointArray{"pore pressure", "Pa", {pressure.data()}},
+                                           tensor};
     writer.write(output, output, ids, arrays);
   }
   const std::size_t per_rank = 4,
@@ -185,7 +189,7 @@ TEST(PointWriter, WritesChangingNumbersOfPointsOfAllRanks) {
 TEST(PointWriter, AcceptsNoPointsAtAll) {
   const TemporaryFolder folder;
   PointWriter writer(MPI_COMM_WORLD, folder.path());
-  const std::array<PointArray, 1> arrays{PointArray{"position", "m", 3, nullptr}};
+  const std::array<PointArray, 1> arrays{PointArray{"position", "m", {nullptr, nullptr}}};
   writer.write(0.0, 0, {}, arrays);
   EXPECT_TRUE(dataset(folder.path() / "points.h5", "/000000/position").empty());
 }

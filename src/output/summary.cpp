@@ -1,0 +1,94 @@
+#include "output/summary.hpp"
+
+#include <sys/resource.h>
+
+#include <nlohmann/json.hpp>
+
+#include "output/files.hpp"
+
+namespace mudlark {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json object_of(const std::vector<std::pair<std::string, double>>& entries) {
+  Json object = Json::object();
+  for (const auto& [name, value] : entries) object[name] = value;
+  return object;
+}
+
+Json gauges_of(const std::vector<GaugeSummary>& gauges) {
+  Json object = Json::object();
+  for (const GaugeSummary& gauge : gauges) {
+    Json entry = Json::object();
+    if (gauge.extremes) {
+      entry["time [s]"] = gauge.extremes->time;
+      for (std::size_t i = 0; i < gauge.columns.size(); ++i)
+        entry[gauge.columns[i]] = {{"last", gauge.extremes->last.at(i)},
+                                   {"smallest", gauge.extremes->smallest.at(i)},
+                                   {"largest", gauge.extremes->largest.at(i)}};
+    }
+    object[gauge.name] = entry;
+  }
+  return object;
+}
+
+double sum_over(MPI_Comm comm, double value) {
+  double sum = 0.0;
+  MPI_Allreduce(&value, &sum, 1, MPI_DOUBLE, MPI_SUM, comm);
+  return sum;
+}
+
+rusage usage() {
+  rusage own{};
+  getrusage(RUSAGE_SELF, &own);
+  return own;
+}
+
+}  // namespace
+
+std::string to_json(const Summary& summary) {
+  Json json;
+  json["status"] = summary.status;
+  if (!summary.message.empty()) json["message"] = summary.message;
+  json["title"] = summary.title;
+  json["version"] = summary.version;
+  json["commit"] = summary.commit;
+  json["dimension"] = summary.dimension;
+  json["ranks"] = summary.ranks;
+  json["resumed"] = summary.resumed;
+  json["cells"] = summary.cells;
+  json["points"] = summary.points;
+  json["time [s]"] = summary.time;
+  json["end time [s]"] = summary.end_time;
+  json["steps"] = summary.steps;
+  json["soil steps"] = summary.soil_steps;
+  json["smallest step [s]"] = summary.smallest_step;
+  json["largest step [s]"] = summary.largest_step;
+  json["wall time [s]"] = summary.wall_seconds;
+  json["CPU time [s]"] = summary.cpu_seconds;
+  json["time per phase [s]"] = object_of(summary.phase_seconds);
+  json["conservation errors"] = object_of(summary.conservation_errors);
+  json["gauges"] = gauges_of(summary.gauges);
+  json["peak memory [bytes]"] = summary.peak_memory_bytes;
+  // A title may hold bytes that are no UTF-8; they are replaced, not refused.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void write_summary(const std::filesystem::path& folder, const Summary& summary, MPI_Comm comm) {
+  on_rank_zero(comm, [&] { write_atomically(folder / "summary.json", to_json(summary)); });
+}
+
+double peak_memory(MPI_Comm comm) {
+  return sum_over(comm, 1024.0 * static_cast<double>(usage().ru_maxrss));
+}
+
+double cpu_seconds(MPI_Comm comm) {
+  const rusage own = usage();
+  const auto seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
+  return sum_over(comm, seconds(own.ru_utime) + seconds(own.ru_stime));
+}
+
+}  // namespace mudlark
