@@ -1,0 +1,34 @@
+#!/bin/bash
+# From nothing to a picture: installs what is missing, builds the program, runs the coupled consolidation and
+# the soil-only run beside it, draws both against the reference and says where the picture is.
+#   scripts/demo.sh [--again]      --again: run even where the results are up to date
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+again=${1:-}
+program=build/release/bin/mudlark
+
+up_to_date() {  # CASE FOLDER: done, and newer than the program and the case
+  local summary=$2/summary.json
+  [[ $again != --again && -f $summary && $summary -nt $program && $summary -nt $1 ]] &&
+    grep -q '"status": *"done"' "$summary"
+}
+
+run_case() {  # NAME
+  local case=cases/consolidation/$1.toml folder=results/$1
+  if up_to_date "$case" "$folder"; then
+    echo "$folder is up to date (--again runs it once more)"
+  else
+    echo "Running $case into $folder"
+    "$program" run "$case" -o "$folder"
+  fi
+}
+
+scripts/install_packages.sh
+scripts/build.sh mudlark
+run_case mpm
+run_case coupled
+"$program" plot results/coupled
+/usr/bin/python3 cases/consolidation/compare.py --results results --picture results/coupled/settlement.png
+echo
+echo "The picture: $PWD/results/coupled/settlement.png"
