@@ -48,27 +48,34 @@ double SurfaceCoupling<D>::load_share(double time) const {
 
 template <int D>
 void SurfaceCoupling<D>::map_soil_to_grid(SoilSolver<D>& soil, const PorousMedium<D>& fixed,
-                                          double dt, PorousMedium<D>& medium) {
+                                          PorousMedium<D>& medium) {
   soil.solid_fraction(fraction_, resistance_);
   for_each(grid_->local(), [&](const Index<D>& cell) {
     medium.porosity[cell] = std::max(least_porosity, fixed.porosity[cell] - fraction_[cell]);
   });
-  const FaceVector<D>& velocity = soil.mean_grain_velocity();
-  const double share = 1.0 / (1.0 + 2.0 * options_.added_mass_factor * added_mass(dt));
   for (int a = 0; a < D; ++a) {
     IndexBox<D> faces = grid_->local();
     ++faces.lower[a];
     for_each(faces, [&](const Index<D>& face) {
       const double solid = 0.5 * (fraction_[face.shifted(a, -1)] + fraction_[face]);
       const double resistance = 0.5 * (resistance_[face.shifted(a, -1)] + resistance_[face]);
-      double& bed = bed_velocity_[a][face];
-      bed += share * (velocity[a][face] - bed);
-      medium.grain_velocity[a][face] = bed;
-      medium.grain_flux[a][face] = solid * bed;
+      medium.grain_velocity[a][face] = bed_velocity_[a][face];
+      medium.grain_flux[a][face] = solid * bed_velocity_[a][face];
       medium.linear_drag[a][face] = fixed.linear_drag[a][face] + resistance;
       medium.quadratic_drag[a][face] = fixed.quadratic_drag[a][face];
     });
   }
+}
+
+template <int D>
+void SurfaceCoupling<D>::relax_bed_velocity(const SoilSolver<D>& soil, double dt) {
+  const FaceVector<D>& velocity = soil.mean_grain_velocity();
+  const double share = 1.0 / (1.0 + 2.0 * options_.added_mass_factor * added_mass(dt));
+  for (int a = 0; a < D; ++a)
+    for_each(grid_->local(), [&](const Index<D>& face) {
+      double& bed = bed_velocity_[a][face];
+      bed += share * (velocity[a][face] - bed);
+    });
 }
 
 template <int D>
@@ -105,24 +112,28 @@ void SurfaceCoupling<D>::extended_pressure(const FlowSolver<D>& flow, const Soil
 }
 
 template <int D>
-void SurfaceCoupling<D>::map_flow_to_soil(const FlowSolver<D>& flow, const SoilSolver<D>& soil,
-                                          double end_of_step, FluidLoad<D>& load) {
+void SurfaceCoupling<D>::map_flow_at_begin(const FlowSolver<D>& flow, const SoilSolver<D>& soil,
+                                           double time, FluidLoad<D>& load) {
   load.outlet = options_.mudline == Mudline::consistent  ? PoreOutlet::at_water_pressure
                 : options_.mudline == Mudline::load_only ? PoreOutlet::at_zero_pressure
                                                          : PoreOutlet::sealed;
-  load.pressure_begin.swap(load.pressure_end);
-  extended_pressure(flow, soil, load_share(end_of_step), load.pressure_end);
-  measure_depth(flow);
+  extended_pressure(flow, soil, load_share(time), load.pressure_begin);
+}
+
+template <int D>
+void SurfaceCoupling<D>::map_flow_at_end(const FlowSolver<D>& flow, const SoilSolver<D>& soil,
+                                         double time, FluidLoad<D>& load) {
+  extended_pressure(flow, soil, load_share(time), load.pressure_end);
   if (options_.pressure_in_time == PressureInTime::constant)
     load.pressure_begin.copy_values_from(load.pressure_end);
+  measure_depth(flow);
 }
 
 template <int D>
 void SurfaceCoupling<D>::initialise(const FlowSolver<D>& flow, SoilSolver<D>& soil,
                                     FluidLoad<D>& load) {
-  map_flow_to_soil(flow, soil, 0.0, load);
-  load.pressure_begin.copy_values_from(load.pressure_end);
-  if (options_.mudline == Mudline::consistent) soil.set_pore_pressure(load.pressure_end);
+  map_flow_at_begin(flow, soil, 0.0, load);
+  if (options_.mudline == Mudline::consistent) soil.set_pore_pressure(load.pressure_begin);
 }
 
 template class SurfaceCoupling<2>;

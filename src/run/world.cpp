@@ -55,15 +55,18 @@ World<D>::World(const CaseOptions& options, MPI_Comm comm)
 template <int D>
 void World<D>::initialise() {
   if (soil_) soil_->initialise();
-  if (coupling_) coupling_->map_soil_to_grid(*soil_, fixed_, 0.0, medium_);
+  if (coupling_) coupling_->map_soil_to_grid(*soil_, fixed_, medium_);
   if (flow_) flow_->initialise(medium_);
   if (coupling_) coupling_->initialise(*flow_, *soil_, *load_);
+  ledger_ = open_ledger(*this);
 }
 
 template <int D>
 void World<D>::restore() {
   if (soil_) soil_->redistribute();
-  if (coupling_) coupling_->map_soil_to_grid(*soil_, fixed_, 0.0, medium_);
+  if (!coupling_) return;
+  coupling_->restore();
+  coupling_->map_soil_to_grid(*soil_, fixed_, medium_);
 }
 
 template <int D>
@@ -83,12 +86,18 @@ void World<D>::advance(double dt) {
 
 template <int D>
 void World<D>::advance_flow(double dt) {
+  const double time = clock_.time();
+  if (coupling_) {
+    const Stopwatch watch(effort_.mapping);
+    coupling_->map_flow_at_begin(*flow_, *soil_, time, *load_);
+  }
   {
     const Stopwatch watch(effort_.flow);
     flow_->advance(medium_, dt);
   }
+  if (!coupling_) return;
   const Stopwatch watch(effort_.mapping);
-  if (coupling_) coupling_->map_flow_to_soil(*flow_, *soil_, clock_.time() + dt, *load_);
+  coupling_->map_flow_at_end(*flow_, *soil_, time + dt, *load_);
 }
 
 template <int D>
@@ -105,7 +114,9 @@ void World<D>::advance_soil(double dt) {
         effort_.smallest_soil_step > 0.0 ? std::min(effort_.smallest_soil_step, sub) : sub;
   }
   const Stopwatch watch(effort_.mapping);
-  if (coupling_) coupling_->map_soil_to_grid(*soil_, fixed_, dt, medium_);
+  if (!coupling_) return;
+  coupling_->relax_bed_velocity(*soil_, dt);
+  coupling_->map_soil_to_grid(*soil_, fixed_, medium_);
 }
 
 template class World<2>;

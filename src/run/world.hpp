@@ -6,6 +6,7 @@
 #include "coupling/surface_coupling.hpp"
 #include "flow/flow_solver.hpp"
 #include "run/clock.hpp"
+#include "run/ledger.hpp"
 #include "run/options.hpp"
 #include "soil/soil_solver.hpp"
 
@@ -43,12 +44,15 @@ class World {
   };
   Effort& effort() { return effort_; }
 
+  const Ledger<D>& ledger() const { return ledger_; }
+
   template <class Archive>
   void archive(Archive& a) {
     clock_.archive(a);
+    ledger_.archive(a);
     if (flow_) flow_->archive(a);
     if (soil_) soil_->archive(a);
-    if (coupling_) coupling_->archive(a, *load_);
+    if (coupling_) coupling_->archive(a);
   }
 
  private:
@@ -63,6 +67,7 @@ class World {
   std::optional<SoilSolver<D>> soil_;
   std::optional<SurfaceCoupling<D>> coupling_;
   std::optional<FluidLoad<D>> load_;
+  Ledger<D> ledger_;
   Effort effort_;
 };
 

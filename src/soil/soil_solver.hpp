@@ -70,7 +70,6 @@ class SoilSolver {
     for (std::size_t b = 0; b < points_.size(); ++b) points_[b].archive(a, options_.bodies[b].name);
     a.number("soil/removed grain mass", removed_grain_mass_);
     a.number("soil/time", time_);
-    a.faces("soil/mean grain velocity", mean_velocity_);
   }
 
  private:

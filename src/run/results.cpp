@@ -1,0 +1,189 @@
+#include "run/results.hpp"
+
+#include <array>
+
+#include "base/version.hpp"
+#include "output/checkpoint.hpp"
+#include "run/gauges.hpp"
+#include "run/ledger.hpp"
+
+namespace mudlark {
+namespace {
+
+/// The points of all bodies one after another, as named arrays for the writer.
+template <int D>
+class PointTable {
+ public:
+  explicit PointTable(SoilSolver<D>& soil) {
+    for (std::size_t b = 0; b < soil.bodies(); ++b) {
+      auto& points = soil.points(b);
+      ids.insert(ids.end(), points.id.begin(), points.id.end());
+      add(0, points.position);
+      add(D, points.start);
+      add(3 * D, points.velocity);
+      add(4 * D, points.water_velocity);
+      add(5 * D, points.stress);
+      columns_[5 * D + 6].insert(columns_[5 * D + 6].end(), points.pore_pressure.begin(),
+                                 points.pore_pressure.end());
+      for (std::size_t p = 0; p < points.size(); ++p) {
+        for (int a = 0; a < D; ++a)
+          columns_[static_cast<std::size_t>(2 * D + a)].push_back(points.position[a][p] -
+                                                                  points.start[a][p]);
+        const double grains =
+            points.grain_mass[p] / (soil.constants(b).grain_density * points.volume[p]);
+        columns_[5 * D + 7].push_back(1.0 - grains);
+        columns_[5 * D + 8].push_back(points.volume[p]);
+        columns_[5 * D + 9].push_back(static_cast<double>(b));
+      }
+    }
+  }
+
+  std::vector<PointArray> arrays() const {
+    return {array("position", "m", 0, D),
+            array("initial position", "m", D, D),
+            array("displacement", "m", 2 * D, D),
+            array("velocity", "m/s", 3 * D, D),
+            array("water velocity", "m/s", 4 * D, D),
+            array("effective stress", "Pa", 5 * D, 6),
+            array("pore pressure", "Pa", 5 * D + 6, 1),
+            array("porosity", "1", 5 * D + 7, 1),
+            array("volume", D == 2 ? "m2" : "m3", 5 * D + 8, 1),
+            array("soil", "1", 5 * D + 9, 1)};
+  }
+  std::vector<std::int64_t> ids;
+
+ private:
+  template <int N>
+  void add(std::size_t column, const PointQuantity<N>& quantity) {
+    for (int c = 0; c < N; ++c, ++column)
+      columns_[column].insert(columns_[column].end(), quantity[c].begin(), quantity[c].end());
+  }
+  PointArray array(const char* name, const char* unit, std::size_t first, int count) const {
+    PointArray out{name, unit, {}};
+    for (int c = 0; c < count; ++c)
+      out.components.push_back(columns_[first + static_cast<std::size_t>(c)].data());
+    return out;
+  }
+
+  std::array<std::vector<double>, 5 * D + 10> columns_;
+};
+
+}  // namespace
+
+template <int D>
+Results<D>::Results(World<D>& world, std::filesystem::path folder, std::optional<double> resumed_at)
+    : folder_(std::move(folder)),
+      resumed_(resumed_at.has_value()),
+      started_(MPI_Wtime()),
+      last_output_(resumed_at) {
+  const MPI_Comm comm = world.grid().comm();
+  const bool first = world.grid().rank() == 0;
+  if (first) {
+    std::filesystem::create_directories(folder_);
+    std::ofstream(folder_ / "case.toml") << world.options().resolved_toml;
+    log_.open(folder_ / "log.txt", resumed_ ? std::ios::app : std::ios::trunc);
+  }
+  MPI_Barrier(comm);
+  if (!resumed_) remove_checkpoints(folder_ / "checkpoint", comm);
+  fields_.emplace(world.grid(), folder_, resumed_at);
+  if (world.soil()) points_.emplace_back(comm, folder_, resumed_at);
+  for (const GaugeOptions& gauge : world.options().gauges)
+    gauges_.emplace_back(comm, folder_, gauge.name, gauge_columns(gauge, D), resumed_at);
+}
+
+template <int D>
+void Results<D>::write_due(World<D>& world) {
+  const double begin = MPI_Wtime();
+  write_gauges(world);
+  if (world.clock().output_due() && last_output_ != world.clock().time()) write_fields(world);
+  world.effort().output += MPI_Wtime() - begin;
+}
+
+template <int D>
+void Results<D>::write_fields(World<D>& world) {
+  last_output_ = world.clock().time();
+  std::vector<const CellField<D>*> cells;
+  std::vector<const FaceVector<D>*> faces;
+  if (FlowSolver<D>* flow = world.flow()) {
+    cells = {&flow->saturation(), &flow->water_fraction(), &flow->pressure()};
+    faces = {&flow->velocity()};
+  }
+  cells.push_back(&world.medium().porosity);
+  fields_->write(world.clock().time(), world.clock().step(), cells, faces);
+  if (!world.soil()) return;
+  const PointTable<D> table(*world.soil());
+  points_.front().write(world.clock().time(), world.clock().step(), table.ids, table.arrays());
+}
+
+template <int D>
+void Results<D>::write_gauges(World<D>& world) {
+  const double time = world.clock().time();
+  for (std::size_t g = 0; g < gauges_.size(); ++g) {
+    const GaugeOptions& gauge = world.options().gauges[g];
+    if (Clock::due(time, gauge.every) || world.clock().finished())
+      gauges_[g].sample(time, read_gauge(world, gauge));
+  }
+}
+
+template <int D>
+void Results<D>::write_checkpoint(World<D>& world) {
+  const double begin = MPI_Wtime();
+  for (GaugeWriter& gauge : gauges_) gauge.flush();
+  CheckpointWriter<D> archive(world.grid(), folder_ / "checkpoint", world.options().resolved_toml,
+                              world.clock().step(), world.clock().time());
+  world.archive(archive);
+  archive.commit();
+  world.effort().output += MPI_Wtime() - begin;
+}
+
+template <int D>
+Summary Results<D>::describe(World<D>& world) const {
+  Summary summary;
+  summary.title = world.options().title;
+  summary.version = program_version();
+  summary.commit = program_commit();
+  summary.dimension = D;
+  summary.ranks = world.grid().ranks();
+  summary.resumed = resumed_;
+  summary.cells = 1;
+  for (int a = 0; a < D; ++a) summary.cells *= world.grid().cells()[a];
+  const auto& effort = world.effort();
+  summary.points = world.soil() ? world.soil()->totals().points : 0;
+  summary.steps = world.clock().step();
+  summary.soil_steps = effort.soil_steps;
+  summary.time = world.clock().time();
+  summary.end_time = world.options().time.end;
+  summary.smallest_step = effort.smallest_step;
+  summary.largest_step = effort.largest_step;
+  summary.wall_seconds = MPI_Wtime() - started_;
+  summary.cpu_seconds = cpu_seconds(world.grid().comm());
+  summary.phase_seconds = {{"flow", effort.flow},
+                           {"soil", effort.soil},
+                           {"mapping", effort.mapping},
+                           {"output", effort.output}};
+  summary.conservation_errors = conservation_errors(world);
+  for (const GaugeWriter& gauge : gauges_)
+    summary.gauges.push_back({gauge.name(), gauge.columns(), gauge.extremes()});
+  summary.peak_memory_bytes = peak_memory(world.grid().comm());
+  return summary;
+}
+
+template <int D>
+void Results<D>::write_summary(World<D>& world, const std::string& status,
+                               const std::string& message) {
+  for (GaugeWriter& gauge : gauges_) gauge.flush();
+  Summary summary = describe(world);
+  summary.status = status;
+  summary.message = message;
+  mudlark::write_summary(folder_, summary, world.grid().comm());
+}
+
+template <int D>
+void Results<D>::log(const std::string& line) {
+  if (log_.is_open()) log_ << line << std::endl;
+}
+
+template class Results<2>;
+template class Results<3>;
+
+}  // namespace mudlark

@@ -1,0 +1,73 @@
+#include "run/time_loop.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "run/interrupt.hpp"
+#include "run/progress.hpp"
+
+namespace mudlark {
+namespace {
+
+/// What all ranks must agree on after a step: has anyone been interrupted, and is rank 0's time for
+/// a checkpoint up?
+struct Agreement {
+  bool stop = false, save = false;
+};
+
+Agreement agree(MPI_Comm comm, bool save_due) {
+  const std::array<int, 2> mine{InterruptGuard::requested() ? 1 : 0, save_due ? 1 : 0};
+  std::array<int, 2> all{};
+  MPI_Allreduce(mine.data(), all.data(), 2, MPI_INT, MPI_MAX, comm);
+  return {all[0] != 0, all[1] != 0};
+}
+
+}  // namespace
+
+template <int D>
+ExitCode run_to_end(World<D>& world, Results<D>& results, const RunSettings& settings) {
+  const InterruptGuard guard;
+  Clock& clock = world.clock();
+  const bool first = world.grid().rank() == 0;
+  Progress progress(first && !settings.quiet, clock.time(), world.options().time.end);
+  double saved = MPI_Wtime();
+  try {
+    results.write_due(world);
+    results.write_summary(world, "running", "");
+    if (!settings.resume)
+      results.write_checkpoint(world);  // so that every failure leaves a good state
+    while (!clock.finished()) {
+      const double dt = clock.choose_step(world.stable_step());
+      world.advance(dt);
+      results.write_due(world);
+      progress.show(clock.time(), clock.step(), dt, clock.finished());
+      const bool due = first && MPI_Wtime() - saved > world.options().time.checkpoint_every;
+      const Agreement agreement = agree(world.grid().comm(), due);
+      if (agreement.stop || agreement.save) {
+        results.write_checkpoint(world);
+        saved = MPI_Wtime();
+      }
+      if (agreement.stop && !clock.finished()) {
+        results.write_summary(world, "interrupted",
+                              fmt::format("interrupted at t = {:.9g} s", clock.time()));
+        return ExitCode::interrupted;
+      }
+    }
+    results.write_checkpoint(world);
+    results.write_summary(world, "done", "");
+    return ExitCode::done;
+  } catch (const DivergenceError& error) {
+    const std::string message =
+        fmt::format("t = {:.9g} s, step {}: {}\nThe last good state is in {}.", clock.time(),
+                    clock.step(), error.what(), (results.folder() / "checkpoint").string());
+    results.log(message);
+    results.write_summary(world, "diverged", message);
+    throw DivergenceError(message);
+  }
+}
+
+template ExitCode run_to_end(World<2>&, Results<2>&, const RunSettings&);
+template ExitCode run_to_end(World<3>&, Results<3>&, const RunSettings&);
+
+}  // namespace mudlark
