@@ -1,8 +1,14 @@
 #!/usr/bin/python3
 """Fails when a page of the documentation points to nothing: relative links, their headings, pictures, and
-paths of this repository written as code (`scripts/test.sh`)."""
+paths of this repository written as code (`scripts/test.sh`).
+
+    check_docs.py                        links and paths
+    check_docs.py --program MUDLARK      the case files on the pages, by `MUDLARK check`
+"""
 import re
+import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -58,12 +64,40 @@ def problems_of(page):
                     yield f"{place}: `{first}` does not exist"
 
 
+def case_files(page):
+    """Whole case files on a page: TOML blocks with [domain]; in tutorials a block without it continues the last."""
+    last = ""
+    for block in re.findall(r"^```toml\n(.*?)^```", page.read_text(), re.S | re.M):
+        if "[domain]" in block:
+            last = block
+        elif "tutorials" in page.parts and last:
+            last += "\n" + block
+        else:
+            continue
+        yield last
+
+
+def problems_of_cases(page, program):
+    for number, text in enumerate(case_files(page), 1):
+        with tempfile.TemporaryDirectory() as folder:
+            case = Path(folder) / "case.toml"
+            case.write_text(text)
+            answer = subprocess.run([program, "check", case], capture_output=True, text=True, cwd=folder)
+        if answer.returncode != 0:
+            yield f"{page.relative_to(ROOT)}: case file {number}: {answer.stdout}{answer.stderr}"
+
+
 def main():
     all_pages = list(pages())
-    problems = [problem for page in all_pages for problem in problems_of(page)]
+    if sys.argv[1:2] == ["--program"]:
+        subject = f"{sum(len(list(case_files(page))) for page in all_pages)} case files"
+        problems = [p for page in all_pages for p in problems_of_cases(page, sys.argv[2])]
+    else:
+        subject = f"{len(all_pages)} pages"
+        problems = [problem for page in all_pages for problem in problems_of(page)]
     for problem in problems:
         print(problem)
-    print(f"check_docs: {len(all_pages)} pages, {len(problems)} problems")
+    print(f"check_docs: {subject}, {len(problems)} problems")
     return 1 if problems else 0
 
 
