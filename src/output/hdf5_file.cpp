@@ -1,7 +1,10 @@
 #include "output/hdf5_file.hpp"
 
 #include <fmt/format.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -49,22 +52,63 @@ std::string last_reason() {
   return reason.empty() ? "HDF5 gives no reason" : reason;
 }
 
-hid_t open_file(const std::filesystem::path& path, Hdf5File::Mode mode, MPI_Comm comm,
-                bool parallel) {
+hid_t open_file(const std::filesystem::path& path, Hdf5File::Mode mode) {
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   // Version 1.10 of the format guards all its own bookkeeping with checksums.
   H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V110);
   H5Pset_file_locking(access, false, true);
   H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
-  if (parallel) {
-    H5Pset_fapl_mpio(access, comm, MPI_INFO_NULL);
-    H5Pset_all_coll_metadata_ops(access, true);
-    H5Pset_coll_metadata_write(access, true);
-  }
   if (mode == Hdf5File::Mode::create)
     return H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
   const unsigned flags = mode == Hdf5File::Mode::append ? H5F_ACC_RDWR : H5F_ACC_RDONLY;
   return H5Fopen(path.c_str(), flags, access);
+}
+
+void broadcast(std::string& text, MPI_Comm comm) {
+  int length = static_cast<int>(text.size());
+  MPI_Bcast(&length, 1, MPI_INT, 0, comm);
+  text.resize(static_cast<std::size_t>(length));
+  MPI_Bcast(text.data(), length, MPI_CHAR, 0, comm);
+}
+
+/// Points the file's descriptor at memory, so that closing cannot fail. After a failed H5Fclose
+/// HDF5 1.10 keeps a dangling entry and crashes when MPI finalises; what was not written is lost
+/// either way, and what was in the file before stays as it was.
+void divert_to_memory(hid_t file) {
+  int* descriptor = nullptr;
+  if (H5Fget_vfd_handle(file, H5P_DEFAULT, reinterpret_cast<void**>(&descriptor)) < 0) return;
+  const int memory = ::memfd_create("mudlark-abandoned-output", 0);
+  if (memory < 0) return;
+  ::dup2(memory, *descriptor);
+  ::close(memory);
+}
+
+/// Messages have at most this many bytes, for MPI counts them with an int.
+constexpr std::size_t message_bytes = std::size_t{1} << 26;
+constexpr int slab_tag = 31, value_tag = 32;
+
+template <class T, class Transfer>
+void in_pieces(T* values, std::size_t size, Transfer&& transfer) {
+  const std::size_t piece = message_bytes / sizeof(T);
+  for (std::size_t at = 0; at < size; at += piece)
+    transfer(values + at, static_cast<int>(std::min(piece, size - at) * sizeof(T)));
+}
+
+/// Start and count of a slab to rank 0, which knows the extent.
+void send_slab(const Slab& slab, MPI_Comm comm) {
+  std::vector<hsize_t> numbers = slab.start;
+  numbers.insert(numbers.end(), slab.count.begin(), slab.count.end());
+  MPI_Send(numbers.data(), static_cast<int>(numbers.size() * sizeof(hsize_t)), MPI_BYTE, 0,
+           slab_tag, comm);
+}
+
+Slab receive_slab(const std::vector<hsize_t>& extent, int from, MPI_Comm comm) {
+  const std::size_t axes = extent.size();
+  std::vector<hsize_t> numbers(2 * axes);
+  MPI_Recv(numbers.data(), static_cast<int>(numbers.size() * sizeof(hsize_t)), MPI_BYTE, from,
+           slab_tag, comm, MPI_STATUS_IGNORE);
+  const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(axes);
+  return {extent, {numbers.begin(), middle}, {middle, numbers.end()}};
 }
 
 }  // namespace
@@ -88,20 +132,20 @@ Slab Slab::rows(std::int64_t total, std::int64_t first, std::int64_t rows, int w
 
 Hdf5File::Hdf5File(std::filesystem::path path, Mode mode, MPI_Comm comm)
     : path_(std::move(path)), comm_(comm), mode_(mode) {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // messages come from us, not from HDF5's stack
-  int ranks = 1;
-  MPI_Comm_size(comm_, &ranks);
-  parallel_ = ranks > 1;
-  file_ = open_file(path_, mode, comm_, parallel_);
-  keep(file_ >= 0, "open it");
-  transfer_ = H5Pcreate(H5P_DATASET_XFER);
-  if (parallel_) H5Pset_dxpl_mpio(transfer_, H5FD_MPIO_COLLECTIVE);
+  MPI_Comm_rank(comm_, &rank_);
+  MPI_Comm_size(comm_, &ranks_);
+  if (rank_ == 0) {
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // messages come from us, not from HDF5's stack
+    file_ = open_file(path_, mode);
+    keep(file_ >= 0, "open it");
+  }
   share_problem();
 }
 
 Hdf5File::~Hdf5File() {
-  if (transfer_ >= 0) H5Pclose(transfer_);
-  if (file_ >= 0) H5Fclose(file_);
+  if (file_ < 0) return;
+  if (mode_ != Mode::read) divert_to_memory(file_);  // left without close(): something else failed
+  H5Fclose(file_);
 }
 
 void Hdf5File::keep(bool fine, const std::string& what) {
@@ -109,202 +153,249 @@ void Hdf5File::keep(bool fine, const std::string& what) {
     problem_ = fmt::format("{}: cannot {} ({})", path_.string(), what, last_reason());
 }
 
+bool Hdf5File::failed() {
+  int failed = !problem_.empty();
+  MPI_Bcast(&failed, 1, MPI_INT, 0, comm_);
+  return failed != 0;
+}
+
 void Hdf5File::share_problem() {
-  int rank = 0, ranks = 1, first = 0;
-  MPI_Comm_rank(comm_, &rank);
-  MPI_Comm_size(comm_, &ranks);
-  const int mine = problem_.empty() ? ranks : rank;
-  MPI_Allreduce(&mine, &first, 1, MPI_INT, MPI_MIN, comm_);
-  if (first == ranks) return;
-  int length = static_cast<int>(problem_.size());
-  MPI_Bcast(&length, 1, MPI_INT, first, comm_);
-  problem_.resize(static_cast<std::size_t>(length));
-  MPI_Bcast(problem_.data(), length, MPI_CHAR, first, comm_);
+  if (!failed()) return;
+  broadcast(problem_, comm_);
   // A constructor that throws runs no destructor.
-  if (transfer_ >= 0) H5Pclose(std::exchange(transfer_, -1));
   if (file_ >= 0) H5Fclose(std::exchange(file_, -1));
   throw std::runtime_error(problem_);
 }
 
 void Hdf5File::close() {
-  if (mode_ != Mode::read) keep(H5Fflush(file_, H5F_SCOPE_LOCAL) >= 0, "write it to the disk");
-  keep(H5Fclose(std::exchange(file_, -1)) >= 0, "close it");
+  if (rank_ == 0) {
+    if (mode_ != Mode::read && problem_.empty())
+      keep(H5Fflush(file_, H5F_SCOPE_LOCAL) >= 0, "write it to the disk");
+    if (mode_ != Mode::read && !problem_.empty()) divert_to_memory(file_);
+    keep(H5Fclose(std::exchange(file_, -1)) >= 0, "close it");
+  }
   share_problem();
 }
 
 void Hdf5File::make_group(const std::string& name) {
+  if (rank_ != 0) return;
   const Handle group(H5Gcreate2(file_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
                      H5Gclose);
   keep(group.fine(), fmt::format("make the group {}", name));
 }
 
 void Hdf5File::remove(const std::string& name) {
-  keep(H5Ldelete(file_, name.c_str(), H5P_DEFAULT) >= 0, fmt::format("remove {}", name));
-}
-
-bool Hdf5File::has(const std::string& name) {
-  return H5Lexists(file_, name.c_str(), H5P_DEFAULT) > 0;
+  if (rank_ == 0)
+    keep(H5Ldelete(file_, name.c_str(), H5P_DEFAULT) >= 0, fmt::format("remove {}", name));
 }
 
 std::vector<std::string> Hdf5File::names_in(const std::string& group) {
   std::vector<std::string> names;
-  const Handle opened(H5Gopen2(file_, group.c_str(), H5P_DEFAULT), H5Gclose);
-  H5G_info_t info{};
-  const bool fine = opened.fine() && H5Gget_info(opened, &info) >= 0;
-  keep(fine, fmt::format("list {}", group));
-  if (!fine) return names;
-  for (hsize_t i = 0; i < info.nlinks; ++i) {
-    std::string name(255, '\0');
-    const ssize_t length = H5Lget_name_by_idx(opened, ".", H5_INDEX_NAME, H5_ITER_INC, i,
-                                              name.data(), name.size() + 1, H5P_DEFAULT);
-    keep(length > 0, fmt::format("list {}", group));
-    if (length <= 0) break;
-    name.resize(std::min(name.size(), static_cast<std::size_t>(length)));
-    names.push_back(name);
+  if (rank_ == 0) {
+    const Handle opened(H5Gopen2(file_, group.c_str(), H5P_DEFAULT), H5Gclose);
+    H5G_info_t info{};
+    const bool fine = opened.fine() && H5Gget_info(opened, &info) >= 0;
+    keep(fine, fmt::format("list {}", group));
+    for (hsize_t i = 0; fine && i < info.nlinks; ++i) {
+      char name[256] = "";
+      const ssize_t length = H5Lget_name_by_idx(opened, ".", H5_INDEX_NAME, H5_ITER_INC, i, name,
+                                                sizeof name, H5P_DEFAULT);
+      keep(length > 0, fmt::format("list {}", group));
+      if (length > 0) names.emplace_back(name);
+    }
   }
+  int count = static_cast<int>(names.size());
+  MPI_Bcast(&count, 1, MPI_INT, 0, comm_);
+  names.resize(static_cast<std::size_t>(count));
+  for (std::string& name : names) broadcast(name, comm_);
   return names;
 }
 
 template <class T>
+void Hdf5File::write_block(hid_t dataset, const Slab& slab, const T* values) {
+  if (dataset < 0 || slab.size() == 0) return;
+  const Handle space(H5Dget_space(dataset), H5Sclose);
+  const Handle memory(
+      H5Screate_simple(static_cast<int>(slab.count.size()), slab.count.data(), nullptr), H5Sclose);
+  const bool fine = H5Sselect_hyperslab(space, H5S_SELECT_SET, slab.start.data(), nullptr,
+                                        slab.count.data(), nullptr) >= 0 &&
+                    H5Dwrite(dataset, type_of<T>(), memory, space, H5P_DEFAULT, values) >= 0;
+  keep(fine, "write numbers");
+}
+
+template <class T>
 void Hdf5File::write(const std::string& dataset, const Slab& slab, const T* values) {
-  const int axes = static_cast<int>(slab.extent.size());
-  const Handle space(H5Screate_simple(axes, slab.extent.data(), nullptr), H5Sclose);
+  if (rank_ != 0) {
+    send_slab(slab, comm_);
+    in_pieces(values, slab.size(), [&](const T* piece, int bytes) {
+      MPI_Send(piece, bytes, MPI_BYTE, 0, value_tag, comm_);
+    });
+    return;
+  }
+  const Handle space(
+      H5Screate_simple(static_cast<int>(slab.extent.size()), slab.extent.data(), nullptr),
+      H5Sclose);
   const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_fill_time(properties, H5D_FILL_TIME_NEVER);  // every number is written by one rank
   const Handle data(
       H5Dcreate2(file_, dataset.c_str(), type_of<T>(), space, H5P_DEFAULT, properties, H5P_DEFAULT),
       H5Dclose);
   keep(data.fine(), fmt::format("make {}", dataset));
-  if (!data.fine() || H5Sget_simple_extent_npoints(space) == 0) return;
-  const Handle memory(H5Screate_simple(axes, slab.count.data(), nullptr), H5Sclose);
-  if (slab.size() > 0) {
-    H5Sselect_hyperslab(space, H5S_SELECT_SET, slab.start.data(), nullptr, slab.count.data(),
-                        nullptr);
-  } else {
-    H5Sselect_none(space);
-    H5Sselect_none(memory);
+  write_block(data, slab, values);
+  std::vector<T> received;
+  for (int rank = 1; rank < ranks_; ++rank) {
+    const Slab part = receive_slab(slab.extent, rank, comm_);
+    received.resize(part.size());
+    in_pieces(received.data(), received.size(), [&](T* piece, int bytes) {
+      MPI_Recv(piece, bytes, MPI_BYTE, rank, value_tag, comm_, MPI_STATUS_IGNORE);
+    });
+    write_block(data, part, received.data());
   }
-  keep(H5Dwrite(data, type_of<T>(), memory, space, transfer_, values) >= 0,
-       fmt::format("write {}", dataset));
+}
+
+template <class T>
+void Hdf5File::read_block(hid_t dataset, const Slab& slab, T* values) {
+  if (dataset < 0 || slab.size() == 0) return;
+  const Handle space(H5Dget_space(dataset), H5Sclose);
+  const Handle memory(
+      H5Screate_simple(static_cast<int>(slab.count.size()), slab.count.data(), nullptr), H5Sclose);
+  const bool fine = H5Sselect_hyperslab(space, H5S_SELECT_SET, slab.start.data(), nullptr,
+                                        slab.count.data(), nullptr) >= 0 &&
+                    H5Dread(dataset, type_of<T>(), memory, space, H5P_DEFAULT, values) >= 0;
+  keep(fine, "read numbers");
 }
 
 template <class T>
 void Hdf5File::read(const std::string& dataset, const Slab& slab, T* values) {
-  const auto extent = extent_of(dataset);
-  if (extent != slab.extent) {
-    keep(false, fmt::format("read {}: it has another size than expected", dataset));
+  if (extent_of(dataset) != slab.extent) {
+    if (rank_ == 0) keep(false, fmt::format("read {}: it has another size than expected", dataset));
+    return;
+  }
+  if (rank_ != 0) {
+    send_slab(slab, comm_);
+    in_pieces(values, slab.size(), [&](T* piece, int bytes) {
+      MPI_Recv(piece, bytes, MPI_BYTE, 0, value_tag, comm_, MPI_STATUS_IGNORE);
+    });
     return;
   }
   const Handle data(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
-  const Handle space(H5Dget_space(data), H5Sclose);
-  if (H5Sget_simple_extent_npoints(space) == 0) return;
-  const Handle memory(
-      H5Screate_simple(static_cast<int>(slab.count.size()), slab.count.data(), nullptr), H5Sclose);
-  if (slab.size() > 0) {
-    H5Sselect_hyperslab(space, H5S_SELECT_SET, slab.start.data(), nullptr, slab.count.data(),
-                        nullptr);
-  } else {
-    H5Sselect_none(space);
-    H5Sselect_none(memory);
+  read_block(data, slab, values);
+  std::vector<T> sent;
+  for (int rank = 1; rank < ranks_; ++rank) {
+    const Slab part = receive_slab(slab.extent, rank, comm_);
+    sent.assign(part.size(), T{});
+    read_block(data, part, sent.data());
+    in_pieces(sent.data(), sent.size(), [&](const T* piece, int bytes) {
+      MPI_Send(piece, bytes, MPI_BYTE, rank, value_tag, comm_);
+    });
   }
-  keep(H5Dread(data, type_of<T>(), memory, space, transfer_, values) >= 0,
-       fmt::format("read {}", dataset));
 }
 
 std::vector<hsize_t> Hdf5File::extent_of(const std::string& dataset) {
-  const Handle data(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
-  keep(data.fine(), fmt::format("find {}", dataset));
-  if (!data.fine()) return {};
-  const Handle space(H5Dget_space(data), H5Sclose);
-  std::vector<hsize_t> extent(
-      static_cast<std::size_t>(std::max(0, H5Sget_simple_extent_ndims(space))));
-  H5Sget_simple_extent_dims(space, extent.data(), nullptr);
+  std::vector<hsize_t> extent;
+  if (rank_ == 0) {
+    const Handle data(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
+    keep(data.fine(), fmt::format("find {}", dataset));
+    if (data.fine()) {
+      const Handle space(H5Dget_space(data), H5Sclose);
+      extent.resize(static_cast<std::size_t>(std::max(0, H5Sget_simple_extent_ndims(space))));
+      H5Sget_simple_extent_dims(space, extent.data(), nullptr);
+    }
+  }
+  int axes = static_cast<int>(extent.size());
+  MPI_Bcast(&axes, 1, MPI_INT, 0, comm_);
+  extent.resize(static_cast<std::size_t>(axes));
+  MPI_Bcast(extent.data(), axes * static_cast<int>(sizeof(hsize_t)), MPI_BYTE, 0, comm_);
   return extent;
 }
 
 bool Hdf5File::holds_integers(const std::string& dataset) {
-  const Handle data(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
-  const Handle type(H5Dget_type(data), H5Tclose);
-  return H5Tget_class(type) == H5T_INTEGER;
+  int integers = 0;
+  if (rank_ == 0) {
+    const Handle data(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
+    const Handle type(data.fine() ? H5Dget_type(data) : -1, H5Tclose);
+    integers = type.fine() && H5Tget_class(type) == H5T_INTEGER;
+  }
+  MPI_Bcast(&integers, 1, MPI_INT, 0, comm_);
+  return integers != 0;
 }
 
-namespace {
-
-bool put_attribute(hid_t file, const std::string& object, const std::string& name, hid_t type,
-                   hid_t space, const void* value) {
-  const Handle attribute(H5Acreate_by_name(file, object.c_str(), name.c_str(), type, space,
+void Hdf5File::put_attribute(const std::string& object, const std::string& name, hid_t type,
+                             hid_t space, const void* value) {
+  const Handle attribute(H5Acreate_by_name(file_, object.c_str(), name.c_str(), type, space,
                                            H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
                          H5Aclose);
-  return attribute.fine() && H5Awrite(attribute, type, value) >= 0;
+  keep(attribute.fine() && H5Awrite(attribute, type, value) >= 0,
+       fmt::format("write {} of {}", name, object));
 }
-
-template <class T>
-bool get_attribute(hid_t file, const std::string& object, const std::string& name, T& value) {
-  const Handle attribute(
-      H5Aopen_by_name(file, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-  return attribute.fine() && H5Aread(attribute, type_of<T>(), &value) >= 0;
-}
-
-}  // namespace
 
 void Hdf5File::set_attribute(const std::string& object, const std::string& name, double value) {
+  if (rank_ != 0) return;
   const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-  keep(put_attribute(file_, object, name, H5T_NATIVE_DOUBLE, space, &value),
-       fmt::format("write {}", name));
+  put_attribute(object, name, H5T_NATIVE_DOUBLE, space, &value);
 }
 
 void Hdf5File::set_attribute(const std::string& object, const std::string& name,
                              std::int64_t value) {
+  if (rank_ != 0) return;
   const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-  keep(put_attribute(file_, object, name, H5T_NATIVE_INT64, space, &value),
-       fmt::format("write {}", name));
+  put_attribute(object, name, H5T_NATIVE_INT64, space, &value);
 }
 
 void Hdf5File::set_attribute(const std::string& object, const std::string& name,
                              const std::string& value) {
+  if (rank_ != 0) return;
   const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
   const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
   H5Tset_size(type, value.size() + 1);
   H5Tset_cset(type, H5T_CSET_UTF8);
-  keep(put_attribute(file_, object, name, type, space, value.c_str()),
-       fmt::format("write {}", name));
+  put_attribute(object, name, type, space, value.c_str());
 }
 
 void Hdf5File::set_attribute(const std::string& object, const std::string& name,
                              const std::vector<double>& value) {
+  if (rank_ != 0) return;
   const hsize_t length = value.size();
   const Handle space(H5Screate_simple(1, &length, nullptr), H5Sclose);
-  keep(put_attribute(file_, object, name, H5T_NATIVE_DOUBLE, space, value.data()),
-       fmt::format("write {}", name));
+  put_attribute(object, name, H5T_NATIVE_DOUBLE, space, value.data());
+}
+
+template <class T>
+T Hdf5File::get_attribute(const std::string& object, const std::string& name) {
+  T value{};
+  if (rank_ == 0) {
+    const Handle attribute(
+        H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+    keep(attribute.fine() && H5Aread(attribute, type_of<T>(), &value) >= 0,
+         fmt::format("read {} of {}", name, object));
+  }
+  MPI_Bcast(&value, sizeof(T), MPI_BYTE, 0, comm_);
+  return value;
 }
 
 double Hdf5File::number(const std::string& object, const std::string& name) {
-  double value = 0.0;
-  keep(get_attribute(file_, object, name, value), fmt::format("read {} of {}", name, object));
-  return value;
+  return get_attribute<double>(object, name);
 }
 
 std::int64_t Hdf5File::integer(const std::string& object, const std::string& name) {
-  std::int64_t value = 0;
-  keep(get_attribute(file_, object, name, value), fmt::format("read {} of {}", name, object));
-  return value;
+  return get_attribute<std::int64_t>(object, name);
 }
 
 std::string Hdf5File::text(const std::string& object, const std::string& name) {
-  const Handle attribute(
-      H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-  bool fine = attribute.fine();
   std::string value;
-  if (fine) {
-    const Handle type(H5Aget_type(attribute), H5Tclose);
-    fine = H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0;
+  if (rank_ == 0) {
+    const Handle attribute(
+        H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+    const Handle type(attribute.fine() ? H5Aget_type(attribute) : -1, H5Tclose);
+    bool fine = type.fine() && H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0;
     if (fine) {
       value.resize(H5Tget_size(type));
       fine = H5Aread(attribute, type, value.data()) >= 0;
-      value.resize(value.find('\0') == std::string::npos ? value.size() : value.find('\0'));
+      value.resize(std::min(value.size(), value.find('\0')));
     }
+    keep(fine, fmt::format("read {} of {}", name, object));
   }
-  keep(fine, fmt::format("read {} of {}", name, object));
+  broadcast(value, comm_);
   return value;
 }
 

@@ -22,10 +22,9 @@ struct Slab {
   static Slab rows(std::int64_t total, std::int64_t first, std::int64_t rows, int width = 1);
 };
 
-/// One file, open on all ranks of `comm`. Every member is collective. Failures after opening are
-/// kept, not thrown, so that no rank leaves a collective call that others wait in; `close` tells
-/// every rank of them. File locks are off: a run must not stop because someone looks at its
-/// results.
+/// One file of all ranks of `comm`. Every member is collective, and what it returns is the same on
+/// all ranks. Failures after opening are kept, not thrown, until `close`, which throws on every
+/// rank. File locks are off: a run must not stop because someone looks at its results.
 class Hdf5File {
  public:
   enum class Mode { create, append, read };
@@ -39,7 +38,6 @@ class Hdf5File {
   void make_group(const std::string& name);
   void remove(const std::string& name);
   std::vector<std::string> names_in(const std::string& group);
-  bool has(const std::string& name);
 
   /// T is double or std::int64_t.
   template <class T>
@@ -58,20 +56,28 @@ class Hdf5File {
   std::int64_t integer(const std::string& object, const std::string& name);
   std::string text(const std::string& object, const std::string& name);
 
-  bool failed() const { return !problem_.empty(); }
+  bool failed();
   /// Sends everything to the disk and closes. Throws std::runtime_error on every rank when anything
   /// failed on any rank since opening.
   void close();
 
  private:
+  template <class T>
+  void write_block(hid_t dataset, const Slab& slab, const T* values);
+  template <class T>
+  void read_block(hid_t dataset, const Slab& slab, T* values);
+  void put_attribute(const std::string& object, const std::string& name, hid_t type, hid_t space,
+                     const void* value);
+  template <class T>
+  T get_attribute(const std::string& object, const std::string& name);
   void keep(bool fine, const std::string& what);
   void share_problem();
 
   std::filesystem::path path_;
   MPI_Comm comm_;
   Mode mode_;
-  bool parallel_ = false;
-  hid_t file_ = -1, transfer_ = -1;
+  int rank_ = 0, ranks_ = 1;
+  hid_t file_ = -1;  ///< on rank 0
   std::string problem_;
 };
 
