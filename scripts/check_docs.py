@@ -90,8 +90,9 @@ def problems_of_cases(page, program):
 def main():
     all_pages = list(pages())
     if sys.argv[1:2] == ["--program"]:
+        program = Path(sys.argv[2]).resolve()
         subject = f"{sum(len(list(case_files(page))) for page in all_pages)} case files"
-        problems = [p for page in all_pages for p in problems_of_cases(page, sys.argv[2])]
+        problems = [p for page in all_pages for p in problems_of_cases(page, program)]
     else:
         subject = f"{len(all_pages)} pages"
         problems = [problem for page in all_pages for problem in problems_of(page)]
