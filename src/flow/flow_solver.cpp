@@ -111,7 +111,8 @@ void FlowSolver<D>::project_start(const PorousMedium<D>& medium) {
   extension_.extend(projection_.unknown(), water_, porosity_, velocity_);
   double round_off = 1e-300;  // what cancellation leaves of the divergence under the deepest water
   for (int a = 0; a < D; ++a) {
-    round_off = std::max(round_off, 4e-15 * grid.cells()[a] * std::abs(grid.gravity()[a]) / grid.spacing()[a]);
+    round_off = std::max(round_off,
+                         4e-15 * grid.cells()[a] * std::abs(grid.gravity()[a]) / grid.spacing()[a]);
     flux_[a].fill(grid.gravity()[a]);
   }
   for (int a = 0; a < D; ++a) {  // no flow through closed walls
@@ -120,7 +121,8 @@ void FlowSolver<D>::project_start(const PorousMedium<D>& medium) {
         zero_wall(grid, a, side, flux_[a]);
   }
   target_.fill(0.0);
-  last_solve_ = projection_.project(porosity_, mobility_, target_, no_storage_, pressure_, flux_, round_off);
+  last_solve_ =
+      projection_.project(porosity_, mobility_, target_, no_storage_, pressure_, flux_, round_off);
 }
 
 template <int D>
@@ -165,7 +167,7 @@ void FlowSolver<D>::transport(const PorousMedium<D>& medium, double dt) {
   const Grid<D>& grid = *grid_;
   find_flux();
   old_water_.copy_values_from(water_);
-  interface_.sweep(water_, porosity_, flux_, dt, step_);
+  interface_.sweep(water_, porosity_, flux_, dt, step_, Spray::mixed);
   move_porosity(grid, porosity_, flux_, dt, new_porosity_);
   const double* w = old_water_.data();
   const double* theta = porosity_.data();

@@ -17,6 +17,7 @@ InterfaceAdvection<D>::InterfaceAdvection(const Grid<D>& grid)
       ghosts_(grid),
       alpha_(grid, "saturation", "1"),
       dilates_(grid, "dilates", "1"),
+      mixed_(grid, "mixed spray", "1"),
       planes_(grid.local_size()),
       water_flux_(grid, "water flux", "1") {
   for (int a = 0; a < D; ++a) strides_[static_cast<std::size_t>(a)] = grid.stride(a);
@@ -29,12 +30,14 @@ Plane<D> InterfaceAdvection<D>::plane(const double* alpha, std::ptrdiff_t at) co
 
 template <int D>
 void InterfaceAdvection<D>::sweep(CellField<D>& water, const CellField<D>& porosity,
-                                  const FaceVector<D>& flux, double dt, std::int64_t order) {
+                                  const FaceVector<D>& flux, double dt, std::int64_t order,
+                                  Spray spray) {
   const double* w = water.data();
   const double* theta = porosity.data();
   double* c = dilates_.data();
   for_each_offset(*grid_, grid_->owned(),
                   [&](std::ptrdiff_t at) { c[at] = dilates(w[at], theta[at]) ? 1.0 : 0.0; });
+  if (spray == Spray::mixed) find_spray(water, porosity);
   // Three cyclic orders, then the same three backwards: no axis is preferred.
   const int first = static_cast<int>(order % D);
   const bool backwards = (order / D) % 2 == 1;
@@ -79,6 +82,20 @@ void InterfaceAdvection<D>::sweep_axis(CellField<D>& water, const CellField<D>& 
   });
 }
 
+template <int D>
+void InterfaceAdvection<D>::find_spray(const CellField<D>& water, const CellField<D>& porosity) {
+  const double* w = water.data();
+  const double* theta = porosity.data();
+  double* mixed = mixed_.data();
+  for_each_offset(*grid_, grid_->owned().grown(1), [&](std::ptrdiff_t at) {
+    bool alone = !dilates(w[at], theta[at]);
+    for (int a = 0; a < D; ++a)
+      for (const std::ptrdiff_t other : {at - grid_->stride(a), at + grid_->stride(a)})
+        alone = alone && !dilates(w[other], theta[other]);
+    mixed[at] = alone ? 1.0 : 0.0;
+  });
+}
+
 /// Planes of the cells that may give water through faces of this axis: one layer more than the
 /// owned ones.
 template <int D>
@@ -104,7 +121,7 @@ double InterfaceAdvection<D>::water_through(double shift, std::ptrdiff_t donor, 
   double share;  // water in the slab per pore volume of the cell
   if (alpha >= 1.0 - sharp)
     share = width * std::min(alpha, 1.0);
-  else if (alpha <= sharp)
+  else if (alpha <= sharp || mixed_.data()[donor] > 0.0)
     share = std::min(width, 1.0) * alpha;
   else
     share = water_in_slab(planes_[static_cast<std::size_t>(donor)], axis,

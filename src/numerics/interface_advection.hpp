@@ -13,6 +13,12 @@
 
 namespace mudlark {
 
+/// What becomes of water without a full cell beside it (saturation below 1/2 there and in all face
+/// neighbours): it keeps a sharp plane, or it is mixed over its cell. A plane knows nothing of
+/// where a droplet is inside its cell: if it happens to lie away from the face, the droplet hangs
+/// while its velocity grows for ever. Mixed spray always moves with its velocity.
+enum class Spray { sharp, mixed };
+
 template <int D>
 class InterfaceAdvection {
  public:
@@ -27,7 +33,7 @@ class InterfaceAdvection {
   /// axes: count it up every step. Bound: dt * max(sum of inflow, sum of outflow) <= theta/2 in
   /// every cell.
   void sweep(CellField<D>& water, const CellField<D>& porosity, const FaceVector<D>& flux,
-             double dt, std::int64_t order);
+             double dt, std::int64_t order, Spray spray = Spray::sharp);
 
   /// Fourth sweep: W += c (theta_new - theta); then theta = theta_new. Owned cells.
   void follow_porosity(CellField<D>& water, CellField<D>& porosity,
@@ -44,12 +50,14 @@ class InterfaceAdvection {
   void sweep_axis(CellField<D>& water, const CellField<D>& porosity, const FaceField<D>& flux,
                   int axis, double dt);
   void find_planes(int axis);
+  void find_spray(const CellField<D>& water, const CellField<D>& porosity);
   double water_through(double shift, std::ptrdiff_t donor, int axis, double porosity) const;
 
   const Grid<D>* grid_;
   Ghosts<D> ghosts_;
   CellField<D> alpha_;
   CellField<D> dilates_;
+  CellField<D> mixed_;  ///< 1 in cells of mixed spray
   std::vector<Plane<D>> planes_;
   FaceVector<D> water_flux_;
   std::array<std::ptrdiff_t, D> strides_{};

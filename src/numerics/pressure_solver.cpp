@@ -9,8 +9,9 @@ namespace mudlark {
 namespace {
 constexpr int multigrid_limit = 80;  // iterations; 6-15 are usual
 constexpr int plain_limit = 20000;
-/// A start that is this much better than asked for is left alone; any other gets one cycle at least, so that
-/// water at rest does not drift within the tolerance, step by step in the same direction.
+/// A start that is this much better than asked for is left alone; any other gets one cycle at
+/// least, so that water at rest does not drift within the tolerance, step by step in the same
+/// direction.
 constexpr double good_start = 1e-6;
 }  // namespace
 

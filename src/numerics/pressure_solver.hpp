@@ -18,13 +18,15 @@ class PressureSolver {
   explicit PressureSolver(const Grid<D>& grid);
 
   /// Solves A p = right side from the present p (warm start), until the largest residual is below
-  /// `tolerance` [1/s]; one cycle at least, unless the start is a million times better. With `system.constant_free` the mean of the right side is taken out first
-  /// (a closed box cannot change its volume) and p keeps its mean. Falls back to diagonal scaling
-  /// where multigrid stalls; the caller decides what a report without convergence means. Leaves the
-  /// ghosts of p valid.
+  /// `tolerance` [1/s]; one cycle at least, unless the start is a million times better. With
+  /// `system.constant_free` the mean of the right side is taken out first (a closed box cannot
+  /// change its volume) and p keeps its mean. Falls back to diagonal scaling where multigrid
+  /// stalls; the caller decides what a report without convergence means. Leaves the ghosts of p
+  /// valid.
   SolveReport solve(PressureSystem<D>& system, CellField<D>& p, double tolerance);
 
-  /// Largest right side of all ranks, its mean taken out where pressure is free by a constant [1/s].
+  /// Largest right side of all ranks, its mean taken out where pressure is free by a constant
+  /// [1/s].
   double largest_right_side(PressureSystem<D>& system) const {
     if (system.constant_free) remove_mean(system, system.right_side);
     return largest(system.right_side);

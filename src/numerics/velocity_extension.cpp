@@ -13,9 +13,11 @@ constexpr double free_fly =
     -1.0;  ///< water without pressure: extended next to governed faces, else kept
 constexpr double governed = 0.0;
 constexpr double flying = 10.0;
+constexpr double closed =
+    20.0;  ///< closed wall: known, but no source: water may leave a ceiling or a wall
 
 /// A face flies freely from this share of water on; less is dust that goes with its surroundings.
-constexpr double dust = 1e-6;
+constexpr double dust = 1e-12;
 
 }  // namespace
 
@@ -50,8 +52,7 @@ void VelocityExtension<D>::mark(int component, const CellField<D>& unknown,
     wall.lower[component] =
         side == 0 ? grid.owned().lower[component] : grid.owned().upper[component];
     wall.upper[component] = wall.lower[component] + 1;
-    // A closed wall's face is known (zero), and no flow goes through it.
-    for_each_offset(grid, wall, [&](std::ptrdiff_t at) { state[at] = governed; });
+    for_each_offset(grid, wall, [&](std::ptrdiff_t at) { state[at] = closed; });
   }
 }
 
