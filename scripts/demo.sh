@@ -14,20 +14,25 @@ up_to_date() {  # CASE FOLDER: done, and newer than the program and the case
     grep -q '"status": *"done"' "$summary"
 }
 
-run_case() {  # NAME
+run_case() {  # NAME [OPTION ...]
   local case=cases/consolidation/$1.toml folder=results/$1
   if up_to_date "$case" "$folder"; then
     echo "$folder is up to date (--again runs it once more)"
   else
     echo "Running $case into $folder"
-    "$program" run "$case" -o "$folder"
+    "$program" run "$case" -o "$folder" "${@:2}"
   fi
 }
 
 scripts/install_packages.sh
 scripts/build.sh mudlark
-run_case mpm
+# Each run takes one core: the soil-only one quietly in the background, the coupled one with its progress.
+run_case mpm --quiet &
+soil_only=$!
+trap 'kill "$soil_only" 2> /dev/null || true' EXIT
 run_case coupled
+wait "$soil_only"
+trap - EXIT
 "$program" plot results/coupled
 /usr/bin/python3 cases/consolidation/compare.py --results results --picture results/coupled/settlement.png
 echo
