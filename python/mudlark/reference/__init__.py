@@ -1,0 +1,1 @@
+"""Exact and reference solutions, written independently of the solver."""
