@@ -72,10 +72,11 @@ void SurfaceCoupling<D>::relax_bed_velocity(const SoilSolver<D>& soil, double dt
   const FaceVector<D>& velocity = soil.mean_grain_velocity();
   const double share = 1.0 / (1.0 + 2.0 * options_.added_mass_factor * added_mass(dt));
   for (int a = 0; a < D; ++a)
-    for_each(grid_->local(), [&](const Index<D>& face) {
+    for_each(grid_->owned_faces(a), [&](const Index<D>& face) {
       double& bed = bed_velocity_[a][face];
       bed += share * (velocity[a][face] - bed);
     });
+  halo_.exchange(bed_velocity_);
 }
 
 template <int D>

@@ -192,7 +192,7 @@ void SoilSolver<D>::gather_nodes() {
   for (std::size_t b = 0; b < points_.size(); ++b)
     points_to_grid(*grid_, points_[b], constants_[b], options_.kernel, options_.transfer,
                    facets ? SurfacePressure<D>{} : surface, sums_);
-  if (grid_->ranks() > 1 || grid_->periodic(0) || grid_->periodic(D - 1) || grid_->periodic(D / 2))
+  if (exchanges_halos())
     halo_.add_to_owners(as_doubles<NodeSums, D>(sums_), node_sums);
   fold_into_domain(*grid_, sums_);
   if (facets) {
@@ -244,22 +244,44 @@ void SoilSolver<D>::solve_face(const NodeSums& sums, double gravity, double dt, 
   motion.total_flux = vs + porosity * (vl - vs);
 }
 
+/// Faces whose motion this rank computes itself: its own, and those behind open sides, which are no
+/// mirrors.
+template <int D>
+IndexBox<D> SoilSolver<D>::solved_faces(int axis) const {
+  IndexBox<D> faces = grid_->owned_faces(axis);
+  for (int a = 0; a < D; ++a) {
+    if (grid_->touches(a, 0) && grid_->wall(a, 0) == Wall::open)
+      faces.lower[a] = grid_->local().lower[a];
+    if (grid_->touches(a, 1) && grid_->wall(a, 1) == Wall::open)
+      faces.upper[a] = grid_->local().upper[a];
+  }
+  return faces.intersected(active_);
+}
+
 template <int D>
 void SoilSolver<D>::solve_nodes(double dt) {
   for (int d = 0; d < D; ++d) {
     const auto u = static_cast<std::size_t>(d);
     const double gravity = grid_->gravity()[d], volume = grid_->cell_volume();
-    for_each(active_, [&](const Index<D>& face) {
-      solve_face(sums_[u][face], gravity, dt, volume, motion_[u][face]);
+    const NodeSums* sums = sums_[u].data();
+    NodeMotion* motion = motion_[u].data();
+    double* mean = mean_velocity_[d].data();
+    for_each(solved_faces(d), [&](const Index<D>& face) {
+      const std::ptrdiff_t at = grid_->offset(face);
+      solve_face(sums[at], gravity, dt, volume, motion[at]);
+      mean[at] += dt / length_ * motion[at].grain_velocity;
     });
   }
   mirror_motion(*grid_, motion_);
-  if (grid_->ranks() > 1 || grid_->periodic(0) || grid_->periodic(D - 1) || grid_->periodic(D / 2))
-    halo_.exchange(as_doubles<NodeMotion, D>(motion_), node_motions);
-  for (int d = 0; d < D; ++d)
-    for_each(active_, [&](const Index<D>& face) {
-      mean_velocity_[d][face] += dt / length_ * motion_[static_cast<std::size_t>(d)][face].grain_velocity;
-    });
+  if (exchanges_halos()) halo_.exchange(as_doubles<NodeMotion, D>(motion_), node_motions);
+}
+
+/// Is there anybody to exchange ghost layers with, be it this rank itself across a periodic side?
+template <int D>
+bool SoilSolver<D>::exchanges_halos() const {
+  bool periodic = false;
+  for (int a = 0; a < D; ++a) periodic = periodic || grid_->periodic(a);
+  return periodic || grid_->ranks() > 1;
 }
 
 template <int D>
@@ -337,7 +359,8 @@ void SoilSolver<D>::solid_fraction(CellField<D>& fraction, CellField<D>& resista
     const BodyConstants& body = constants_[b];
     add_solid_fraction(*grid_, points_[b], body.grain_density, options_.kernel, 1.0, fraction);
     if (body.water_density == 0.0) continue;
-    const double drag = body.water_viscosity / (body.intrinsic_permeability * (1.0 - body.start_porosity));
+    const double drag =
+        body.water_viscosity / (body.intrinsic_permeability * (1.0 - body.start_porosity));
     add_solid_fraction(*grid_, points_[b], body.grain_density, options_.kernel, drag, resistance);
   }
   const std::array<double*, 2> both{fraction.data(), resistance.data()};

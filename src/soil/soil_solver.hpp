@@ -47,13 +47,15 @@ class SoilSolver {
   /// Cells around the soil, with the reach of the kernels; within this rank's local box.
   const IndexBox<D>& active() const { return active_; }
 
-  /// Grain volume per cell volume [-], and the Darcy resistance mu/kappa [Pa s/m2] that fades with the grains at the
-  /// rim, from the points, ghosts included. Collective.
+  /// Grain volume per cell volume [-], and the Darcy resistance mu/kappa [Pa s/m2] that fades with
+  /// the grains at the rim, from the points, ghosts included. Collective.
   void solid_fraction(CellField<D>& fraction, CellField<D>& resistance);
-  /// Pore pressure from a cell field (ghosts valid), plus the excess that the case gives. For the start.
+  /// Pore pressure from a cell field (ghosts valid), plus the excess that the case gives. For the
+  /// start.
   void set_pore_pressure(const CellField<D>& pressure);
-  /// Velocity of the grains v_s [m/s] on faces, mean over the last outer step; zero where there are none;
-  /// ghosts included. What the bed swept in that step is exactly this motion, elastic waves averaged out.
+  /// Velocity of the grains v_s [m/s] on faces, mean over the last outer step; zero where there are
+  /// none; on this rank's own faces. What the bed swept in that step is exactly this motion,
+  /// elastic waves averaged out.
   const FaceVector<D>& mean_grain_velocity() const { return mean_velocity_; }
 
   struct Totals {
@@ -73,6 +75,8 @@ class SoilSolver {
   }
 
  private:
+  IndexBox<D> solved_faces(int axis) const;
+  bool exchanges_halos() const;
   void gather_nodes();
   void solve_nodes(double dt);
   void solve_face(const NodeSums& sums, double gravity, double dt, double face_volume,
@@ -91,7 +95,7 @@ class SoilSolver {
   NodeField<NodeMotion, D> motion_;
   CellField<D> occupied_;
   FaceVector<D> mean_velocity_;
-  double length_ = 0.0;     ///< of the open outer step [s]
+  double length_ = 0.0;  ///< of the open outer step [s]
   PointMotion point_motion_;
   IndexBox<D> active_{};
   double time_ = 0.0;

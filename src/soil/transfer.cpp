@@ -288,13 +288,14 @@ void grid_to_points(const Grid<D>& grid, const NodeField<NodeMotion, D>& nodes, 
 template <int D>
 void add_solid_fraction(const Grid<D>& grid, const SoilParticles<D>& points, double grain_density,
                         Kernel kernel, double weight, CellField<D>& solid_fraction) {
-  with_kernel(kernel,
-              [&]<class K>(K) { add_fraction<D, K>(grid, points, grain_density, weight, solid_fraction); });
+  with_kernel(kernel, [&]<class K>(K) {
+    add_fraction<D, K>(grid, points, grain_density, weight, solid_fraction);
+  });
 }
 
 template <int D>
-std::vector<double> sample_at_points(const Grid<D>& grid, const SoilParticles<D>& points, Kernel kernel,
-                                     const CellField<D>& field) {
+std::vector<double> sample_at_points(const Grid<D>& grid, const SoilParticles<D>& points,
+                                     Kernel kernel, const CellField<D>& field) {
   const Vec<D> per_spacing = inverse(grid.spacing());
   std::vector<double> values(points.size());
   with_kernel(kernel, [&]<class K>(K) {
@@ -314,9 +315,13 @@ template void grid_to_points(const Grid<2>&, const NodeField<NodeMotion, 2>&, Ke
                              double, double, bool, SoilParticles<2>&, PointMotion&);
 template void grid_to_points(const Grid<3>&, const NodeField<NodeMotion, 3>&, Kernel, Transfer,
                              double, double, bool, SoilParticles<3>&, PointMotion&);
-template void add_solid_fraction(const Grid<2>&, const SoilParticles<2>&, double, Kernel, double, CellField<2>&);
-template std::vector<double> sample_at_points(const Grid<2>&, const SoilParticles<2>&, Kernel, const CellField<2>&);
-template void add_solid_fraction(const Grid<3>&, const SoilParticles<3>&, double, Kernel, double, CellField<3>&);
-template std::vector<double> sample_at_points(const Grid<3>&, const SoilParticles<3>&, Kernel, const CellField<3>&);
+template void add_solid_fraction(const Grid<2>&, const SoilParticles<2>&, double, Kernel, double,
+                                 CellField<2>&);
+template std::vector<double> sample_at_points(const Grid<2>&, const SoilParticles<2>&, Kernel,
+                                              const CellField<2>&);
+template void add_solid_fraction(const Grid<3>&, const SoilParticles<3>&, double, Kernel, double,
+                                 CellField<3>&);
+template std::vector<double> sample_at_points(const Grid<3>&, const SoilParticles<3>&, Kernel,
+                                              const CellField<3>&);
 
 }  // namespace mudlark

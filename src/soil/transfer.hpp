@@ -53,15 +53,15 @@ void grid_to_points(const Grid<D>& grid, const NodeField<NodeMotion, D>& nodes, 
                     Transfer transfer, double flip_fraction, double dt, bool pore_water,
                     SoilParticles<D>& points, PointMotion& motion);
 
-/// Adds `weight` times V_grains / V_cell of the points to the cells around them, with the across-axis spline:
-/// weight 1 gives the solid fraction [-].
+/// Adds `weight` times V_grains / V_cell of the points to the cells around them, with the
+/// across-axis spline: weight 1 gives the solid fraction [-].
 template <int D>
 void add_solid_fraction(const Grid<D>& grid, const SoilParticles<D>& points, double grain_density,
                         Kernel kernel, double weight, CellField<D>& solid_fraction);
 
 /// Value of a cell field (ghosts valid) at each point, with the across-axis spline.
 template <int D>
-std::vector<double> sample_at_points(const Grid<D>& grid, const SoilParticles<D>& points, Kernel kernel,
-                                     const CellField<D>& field);
+std::vector<double> sample_at_points(const Grid<D>& grid, const SoilParticles<D>& points,
+                                     Kernel kernel, const CellField<D>& field);
 
 }  // namespace mudlark

@@ -67,16 +67,18 @@ void fold_into_domain(const Grid<D>& grid, NodeField<NodeSums, D>& nodes) {
 
 template <int D>
 void mirror_motion(const Grid<D>& grid, NodeField<NodeMotion, D>& nodes) {
+  // All walls come to rest before any is mirrored: in a domain one cell wide they see each other.
+  for_each_closed_wall(grid, [&](int axis, int side, Wall) {
+    IndexBox<D> face = grid.local();
+    face.lower[axis] = side == 0 ? 0 : grid.cells()[axis];
+    face.upper[axis] = face.lower[axis] + 1;
+    auto& field = nodes[static_cast<std::size_t>(axis)];
+    for_each(face, [&](const Index<D>& index) { field[index] = NodeMotion{}; });
+  });
   for_each_closed_wall(grid, [&](int axis, int side, Wall wall) {
     for (int d = 0; d < D; ++d) {
       auto& field = nodes[static_cast<std::size_t>(d)];
       const double sign = parity(d, axis, wall);
-      if (d == axis) {
-        IndexBox<D> face = grid.local();
-        face.lower[axis] = side == 0 ? 0 : grid.cells()[axis];
-        face.upper[axis] = face.lower[axis] + 1;
-        for_each(face, [&](const Index<D>& index) { field[index] = NodeMotion{}; });
-      }
       for_each_mirror_pair(grid, axis, side, d == axis,
                            [&](const Index<D>& behind, const Index<D>& before) {
                              const NodeMotion& from = field[before];
