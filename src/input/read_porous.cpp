@@ -62,21 +62,24 @@ std::optional<double> read_permeability(Section& section, double density, double
     section.fail("intrinsic_permeability", "hydraulic_conductivity is given too", cure);
     return {};
   }
-  if (by_permeability)
-    return section.number(
-        "intrinsic_permeability", quantity::permeability,
-        positive("a permeability lies above 0", "Sand has about 1e-12 to 1e-9 m2."));
-  if (!by_conductivity) {
+  if (!by_permeability && !by_conductivity) {
     if (required)
       section.missing("hydraulic_conductivity",
                       "the drag of the water needs it, or intrinsic_permeability");
     return {};
   }
-  const double conductivity = section.number_unrecorded(
-      "hydraulic_conductivity", quantity::velocity,
-      positive("a conductivity lies above 0", "Sand has about 1e-5 to 1e-2 m/s."));
-  const double permeability = conductivity * viscosity / (density * conductivity_gravity);
-  section.record().remark(fmt::format("hydraulic_conductivity = {} m/s", conductivity));
+  const double weight_per_viscosity = density * conductivity_gravity / viscosity;
+  const double permeability =
+      by_permeability
+          ? section.number_unrecorded(
+                "intrinsic_permeability", quantity::permeability,
+                positive("a permeability lies above 0", "Sand has about 1e-12 to 1e-9 m2."))
+          : section.number_unrecorded(
+                "hydraulic_conductivity", quantity::velocity,
+                positive("a conductivity lies above 0", "Sand has about 1e-5 to 1e-2 m/s.")) /
+                weight_per_viscosity;
+  section.record().remark(
+      fmt::format("hydraulic_conductivity = {:.6g} m/s", permeability * weight_per_viscosity));
   section.record().value("intrinsic_permeability", toml_number(permeability),
                          quantity::permeability.unit);
   return permeability;

@@ -99,7 +99,8 @@ void read_coupling(Section& root, CaseOptions& options) {
                                  coupling.ramp);
   coupling.added_mass_factor = section.number(
       "added_mass_factor", quantity::number,
-      not_negative("1 relaxes as the water over the soil asks for, 0 couples loosely"), coupling.added_mass_factor);
+      not_negative("1 relaxes as the water over the soil asks for, 0 couples loosely"),
+      coupling.added_mass_factor);
   section.finish();
 }
 

@@ -1,0 +1,231 @@
+#include "input/case_file.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "base/errors.hpp"
+
+namespace mudlark {
+namespace {
+
+namespace fs = std::filesystem;
+
+class CaseFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("mudlark-case-file-" + std::to_string(getpid()));
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  CaseOptions read(const std::string& text, const std::vector<std::string>& overrides = {}) {
+    const fs::path file = folder_ / "case.toml";
+    std::ofstream(file) << text;
+    return read_case(file, overrides);
+  }
+  std::string mistakes(const std::string& text, const std::vector<std::string>& overrides = {}) {
+    try {
+      read(text, overrides);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  fs::path folder_;
+};
+
+const std::string wet_column = R"toml(title = "Column"
+[domain]
+upper = ["10 cm", 2.0]
+cell_size = "5 cm"
+gravity = "9.81 m/s2"
+[domain.walls]
+lower_z = "no-slip"
+upper_z = "open"
+[time]
+end = "2 h"
+courant = 0.25
+[water]
+bulk_modulus = "2.15e4 kPa"
+[[water.body]]
+shape = { difference = [ { box = { lower = [0, 0], upper = [0.1, 1.8] } }, { circle = { centre = [0.05, 1.5], radius = "1 cm" } } ] }
+velocity = ["0.1*z", 0]
+[[soil]]
+name = "column"
+shape = { polygon = { corners = [[0, 0], [0.1, 0], [0.1, 1], [0, 1]] } }
+porosity = 0.4
+hydraulic_conductivity = "1e-4 cm/s"
+law = { type = "linear-elastic", young_modulus = "1 MPa", poisson_ratio = 0.3, strain = "log" }
+initial_stress = { type = "geostatic", lateral_coefficient = 0.5 }
+initial_pore_pressure = "100*(1-z)"
+[coupling]
+mode = "surface"
+mudline = "load-only"
+[[load]]
+name = "q"
+pressure = { time = [0, "1 min"], value = [0, "400 kPa"] }
+[[gauge]]
+name = "top"
+quantity = "settlement"
+at = [0.05, 1.0]
+every = "1 s"
+)toml";
+
+TEST_F(CaseFile, BecomesOptionsInSiUnits) {
+  const CaseOptions options = read(wet_column);
+  EXPECT_EQ(options.title, "Column");
+  EXPECT_EQ(options.domain.cells[0], 2);
+  EXPECT_EQ(options.domain.cells[1], 40);
+  EXPECT_EQ(options.domain.gravity[1], -9.81);
+  EXPECT_EQ(options.domain.walls[1][1], Wall::open);
+  EXPECT_EQ(options.time.end, 7200.0);
+  ASSERT_TRUE(options.flow && options.soil);
+  EXPECT_EQ(options.flow->courant, 0.25);
+  EXPECT_EQ(options.soil->courant, 0.25);
+  EXPECT_EQ(options.soil->water_bulk_modulus, 2.15e7);
+  EXPECT_DOUBLE_EQ(options.flow->bodies[0].velocity[0]({0, 0, 2.0}, 0.0), 0.2);
+  const SoilBody& soil = options.soil->bodies.at(0);
+  EXPECT_DOUBLE_EQ(soil.intrinsic_permeability, 1e-6 * 1.002e-3 / 9810.0);
+  EXPECT_EQ(std::get<LinearElasticOptions>(soil.law).strain, StrainMeasure::logarithmic);
+  EXPECT_EQ(std::get<GeostaticStress>(soil.initial_stress).lateral_coefficient, 0.5);
+  EXPECT_DOUBLE_EQ((*soil.initial_pore_pressure)({0, 0, 0.25}, 0.0), 75.0);
+  EXPECT_DOUBLE_EQ(options.soil->loads[0].pressure({}, 30.0), 2e5);
+  EXPECT_EQ(options.coupling.mudline, Mudline::load_only);
+  EXPECT_EQ(options.gauges[0].at, (Point3{0.05, 0.0, 1.0}));
+}
+
+TEST_F(CaseFile, ResolvedInputReadsBackToTheSameInput) {
+  const CaseOptions options = read(wet_column);
+  const CaseOptions again = read(options.resolved_toml);
+  EXPECT_EQ(again.resolved_toml, options.resolved_toml);
+  EXPECT_EQ(again.soil->bodies[0].intrinsic_permeability,
+            options.soil->bodies[0].intrinsic_permeability);
+  EXPECT_EQ(again.soil->loads[0].pressure({}, 17.0), options.soil->loads[0].pressure({}, 17.0));
+  EXPECT_EQ(again.domain.cells, options.domain.cells);
+  EXPECT_NE(options.resolved_toml.find("initial_pore_pressure = \"100*(1-z)\"  # [Pa]"),
+            std::string::npos);
+}
+
+TEST_F(CaseFile, EveryShippedCaseIsValidAndReadsBack) {
+  int count = 0;
+  for (const auto& entry :
+       fs::recursive_directory_iterator(fs::path(MUDLARK_SOURCE_DIR) / "cases")) {
+    if (entry.path().extension() != ".toml") continue;
+    const CaseOptions options = read_case(entry.path(), {});
+    EXPECT_EQ(read(options.resolved_toml).resolved_toml, options.resolved_toml) << entry.path();
+    ++count;
+  }
+  EXPECT_GE(count, 7);
+}
+
+TEST_F(CaseFile, OverridesAreReadLikeTheFile) {
+  const CaseOptions options =
+      read(wet_column, {"soil.0.porosity=0.35", "soil.law.poisson_ratio=0.2", "time.end=2 s",
+                        "domain.walls.upper_z=\"slip\"", "coupling.ramp=1 min", "title=Other"});
+  EXPECT_EQ(options.soil->bodies[0].porosity, 0.35);
+  EXPECT_EQ(std::get<LinearElasticOptions>(options.soil->bodies[0].law).poisson_ratio, 0.2);
+  EXPECT_EQ(options.time.end, 2.0);
+  EXPECT_EQ(options.domain.walls[1][1], Wall::slip);
+  EXPECT_EQ(options.coupling.ramp, 60.0);
+  EXPECT_EQ(options.title, "Other");
+}
+
+TEST_F(CaseFile, MistakesInOverridesNameTheOption) {
+  const std::string text = mistakes(
+      wet_column, {"soil.0.porosity=1.4", "soil.3.porosity=0.3", "tiem.end=3", "nonsense"});
+  EXPECT_NE(text.find("--set soil.0.porosity=1.4: soil.porosity = 1.4 is not possible"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("--set soil.3.porosity=0.3: there is no 3 here"), std::string::npos) << text;
+  EXPECT_NE(text.find("--set tiem.end=3: unknown key tiem. Did you mean time?"), std::string::npos)
+      << text;
+  EXPECT_NE(text.find("--set nonsense: not of the form key=value"), std::string::npos) << text;
+}
+
+TEST_F(CaseFile, AllMistakesAreReportedTogetherInTheOrderOfTheirLines) {
+  const std::string text = mistakes(R"([domain]
+upper = [1, 1]
+cells = [4, 0]
+[time]
+end = -1
+[[water.body]]
+shape = { box = { lower = [0, 0], upper = [1, 2] } }
+colour = "blue"
+)");
+  const std::size_t cells = text.find(":3: domain.cells"), end = text.find(":5: time.end = -1"),
+                    shape = text.find(":7: water.body.shape"),
+                    colour = text.find(":8: unknown key water.body.colour");
+  EXPECT_LT(cells, end);
+  EXPECT_LT(end, shape);
+  EXPECT_LT(shape, colour);
+  EXPECT_NE(colour, std::string::npos) << text;
+}
+
+TEST_F(CaseFile, SyntaxErrorsHaveLineAndColumn) {
+  EXPECT_NE(mistakes("[domain]\nupper = [1, \n").find("case.toml:"), std::string::npos);
+  EXPECT_NE(mistakes("a = 1\nb = = 2\n").find("case.toml:2:5: this is not valid TOML"),
+            std::string::npos);
+}
+
+TEST_F(CaseFile, ThreeDimensionsHaveTheirOwnShapesWallsAndGravity) {
+  const CaseOptions options = read(R"([domain]
+dimension = 3
+upper = [1, 2, 3]
+cells = [4, 8, 12]
+gravity = [0.1, 0, -9.8]
+[domain.walls]
+lower_y = "periodic"
+upper_y = "periodic"
+[time]
+end = 1
+[water]
+[[water.body]]
+shape = { union = [ { sphere = { centre = [0.5, 1, 1], radius = 0.2 } }, { cylinder = { from = [0.5, 0.5, 2], to = [0.5, 1.5, 2], radius = 0.1 } }, { polygon = { corners = [[0, 0], [1, 0], [1, 1]], bottom = 0, top = 0.5 } } ] }
+)");
+  EXPECT_EQ(options.domain.gravity[0], 0.1);
+  EXPECT_EQ(options.domain.walls[1][0], Wall::periodic);
+  EXPECT_TRUE(options.flow->bodies[0].shape.contains({0.9, 0.5, 0.2}));
+  EXPECT_FALSE(options.flow->bodies[0].shape.contains({0.1, 0.5, 0.2}));
+  EXPECT_EQ(read(options.resolved_toml).resolved_toml, options.resolved_toml);
+}
+
+TEST_F(CaseFile, PorousGroundTakesEachLawOfDrag) {
+  const auto drag = [&](const std::string& law) {
+    return read(R"([domain]
+upper = [1, 1]
+cells = [4, 4]
+[time]
+end = 1
+[water]
+viscosity = 1e-3
+[[water.body]]
+shape = { box = { lower = [0, 0], upper = [1, 0.5] } }
+[[porous]]
+name = "sill"
+shape = { below = { line = [[0, 0.2], [1, 0.4]] } }
+porosity = 0.5
+drag = { )" + law +
+                " }\n")
+        .flow->porous.at(0);
+  };
+  EXPECT_DOUBLE_EQ(
+      drag(R"(type = "darcy", hydraulic_conductivity = "1 cm/s")").intrinsic_permeability,
+      1e-2 * 1e-3 / 9810.0);
+  EXPECT_EQ(drag(R"(type = "darcy-forchheimer", intrinsic_permeability = 1e-9, forchheimer = 5e5)")
+                .forchheimer,
+            5e5);
+  EXPECT_EQ(drag(R"(type = "ergun", grain_size = "2 cm")").grain_size, 0.02);
+  const PorousGround ground =
+      drag(R"(type = "van-gent", grain_size = 0.02, alpha = 200, keulegan_carpenter = 10)");
+  EXPECT_EQ(ground.alpha, 200.0);
+  EXPECT_EQ(ground.beta, 1.1);
+  EXPECT_EQ(ground.keulegan_carpenter, 10.0);
+}
+
+}  // namespace
+}  // namespace mudlark
