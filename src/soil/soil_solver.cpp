@@ -265,14 +265,20 @@ void SoilSolver<D>::solve_nodes(double dt) {
     const double gravity = grid_->gravity()[d], volume = grid_->cell_volume();
     const NodeSums* sums = sums_[u].data();
     NodeMotion* motion = motion_[u].data();
-    double* mean = mean_velocity_[d].data();
     for_each(solved_faces(d), [&](const Index<D>& face) {
       const std::ptrdiff_t at = grid_->offset(face);
       solve_face(sums[at], gravity, dt, volume, motion[at]);
-      mean[at] += dt / length_ * motion[at].grain_velocity;
     });
   }
   mirror_motion(*grid_, motion_);
+  for (int d = 0; d < D; ++d) {  // after the walls have come to rest
+    const NodeMotion* motion = motion_[static_cast<std::size_t>(d)].data();
+    double* mean = mean_velocity_[d].data();
+    for_each(solved_faces(d), [&](const Index<D>& face) {
+      const std::ptrdiff_t at = grid_->offset(face);
+      mean[at] += dt / length_ * motion[at].grain_velocity;
+    });
+  }
   if (exchanges_halos()) halo_.exchange(as_doubles<NodeMotion, D>(motion_), node_motions);
 }
 
