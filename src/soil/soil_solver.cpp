@@ -192,9 +192,8 @@ void SoilSolver<D>::gather_nodes() {
   for (std::size_t b = 0; b < points_.size(); ++b)
     points_to_grid(*grid_, points_[b], constants_[b], options_.kernel, options_.transfer,
                    facets ? SurfacePressure<D>{} : surface, sums_);
-  if (exchanges_halos())
-    halo_.add_to_owners(as_doubles<NodeSums, D>(sums_), node_sums);
-  fold_into_domain(*grid_, sums_);
+  if (exchanges_halos()) halo_.add_to_owners(as_doubles<NodeSums, D>(sums_), node_sums);
+  fold_into_domain(*grid_, active_, sums_);
   if (facets) {
     for_each(active_, [&](const Index<D>& cell) { occupied_[cell] = 0.0; });
     for (const auto& points : points_) mark_occupied(*grid_, points, occupied_);
@@ -270,7 +269,7 @@ void SoilSolver<D>::solve_nodes(double dt) {
       solve_face(sums[at], gravity, dt, volume, motion[at]);
     });
   }
-  mirror_motion(*grid_, motion_);
+  mirror_motion(*grid_, active_, motion_);
   for (int d = 0; d < D; ++d) {  // after the walls have come to rest
     const NodeMotion* motion = motion_[static_cast<std::size_t>(d)].data();
     double* mean = mean_velocity_[d].data();
@@ -371,8 +370,8 @@ void SoilSolver<D>::solid_fraction(CellField<D>& fraction, CellField<D>& resista
   }
   const std::array<double*, 2> both{fraction.data(), resistance.data()};
   halo_.add_to_owners(both);
-  fold_cells(*grid_, fraction);
-  fold_cells(*grid_, resistance);
+  fold_cells(*grid_, active_, fraction);
+  fold_cells(*grid_, active_, resistance);
   halo_.exchange(both);
 }
 

@@ -9,15 +9,15 @@ namespace mudlark {
 /// tangential ones keep it at slip walls (even) and change it at no-slip walls (odd). Layers behind
 /// open sides stay as they are.
 template <int D>
-void fold_into_domain(const Grid<D>& grid, NodeField<NodeSums, D>& nodes);
+void fold_into_domain(const Grid<D>& grid, const IndexBox<D>& box, NodeField<NodeSums, D>& nodes);
 
 /// Gives the nodes behind closed walls the mirrored motion, and the wall's own faces none along the
 /// normal.
 template <int D>
-void mirror_motion(const Grid<D>& grid, NodeField<NodeMotion, D>& nodes);
+void mirror_motion(const Grid<D>& grid, const IndexBox<D>& box, NodeField<NodeMotion, D>& nodes);
 
 /// The same fold for a scalar at cell centres.
 template <int D>
-void fold_cells(const Grid<D>& grid, CellField<D>& field);
+void fold_cells(const Grid<D>& grid, const IndexBox<D>& box, CellField<D>& field);
 
 }  // namespace mudlark
