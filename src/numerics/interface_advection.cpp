@@ -88,7 +88,7 @@ void InterfaceAdvection<D>::find_spray(const CellField<D>& water, const CellFiel
   const double* theta = porosity.data();
   double* mixed = mixed_.data();
   for_each_offset(*grid_, grid_->owned().grown(1), [&](std::ptrdiff_t at) {
-    bool alone = !dilates(w[at], theta[at]);
+    bool alone = true;
     for (int a = 0; a < D; ++a)
       for (const std::ptrdiff_t other : {at - grid_->stride(a), at + grid_->stride(a)})
         alone = alone && !dilates(w[other], theta[other]);

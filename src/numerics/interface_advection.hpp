@@ -13,10 +13,11 @@
 
 namespace mudlark {
 
-/// What becomes of water without a full cell beside it (saturation below 1/2 there and in all face
-/// neighbours): it keeps a sharp plane, or it is mixed over its cell. A plane knows nothing of
-/// where a droplet is inside its cell: if it happens to lie away from the face, the droplet hangs
-/// while its velocity grows for ever. Mixed spray always moves with its velocity.
+/// What becomes of water whose face neighbours are all less than half full: it keeps a sharp plane,
+/// or it is mixed over its cell. A plane knows nothing of where a droplet is inside its cell: if it
+/// happens to lie away from the face, the droplet hangs while its velocity grows for ever. Mixed
+/// spray always moves with its velocity. (In thin filaments of a given smooth flow the plane is the
+/// better choice.)
 enum class Spray { sharp, mixed };
 
 template <int D>

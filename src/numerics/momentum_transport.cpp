@@ -11,6 +11,9 @@ namespace {
 /// Below this share of water a face's momentum is carried at first order and kept inside its
 /// neighbours' range: such spray has mass in one sweep and none in the next.
 constexpr double thin = 0.01;
+/// Below this volume per cell the quotient of momentum and mass is round-off; the face keeps its
+/// velocity, or viscosity and slopes would spread the noise.
+constexpr double dust = 1e-8;
 
 double limited_slope(double behind, double ahead) {
   const double product = behind * ahead;
@@ -65,7 +68,7 @@ void MomentumTransport<D>::advance_component(int component, const double* old_wa
       }
     }
     const double left = 0.5 * (new_water[at - sa] + new_water[at]);
-    double result = left > 1e-14 ? v - change / left : v;
+    double result = left > dust ? v - change / left : v;
     if (left < thin * room) result = std::clamp(result, lowest, highest);
     moved[at] = result;
   });

@@ -16,8 +16,9 @@ constexpr double flying = 10.0;
 constexpr double closed =
     20.0;  ///< closed wall: known, but no source: water may leave a ceiling or a wall
 
-/// A face flies freely from this share of water on; less is dust that goes with its surroundings.
-constexpr double dust = 1e-12;
+/// A face flies freely from this share of water on; less is dust that goes with its surroundings,
+/// because the velocity of next to nothing is mostly round-off.
+constexpr double dust = 1e-6;
 
 }  // namespace
 

@@ -18,7 +18,7 @@ TEST(UniformFlow, OfADropInEmptySpaceStaysUniformToRoundOff) {
   options.bodies = {drop};
   FlowRun<2> run(flow_domain({32, 32, 1}, {1.0, 1.0, 1.0}, {0.0, 0.0, 0.0}, Wall::periodic),
                  options);
-  for (int step = 0; step < 200; ++step) run.step(run.flow.stable_step(run.medium));
+  for (int step = 0; step < 120; ++step) run.step(run.flow.stable_step(run.medium));
   double worst = 0.0;
   for (int axis = 0; axis < 2; ++axis)
     for_each(run.grid.owned(), [&](const Index<2>& face) {
@@ -27,7 +27,7 @@ TEST(UniformFlow, OfADropInEmptySpaceStaysUniformToRoundOff) {
             std::max(worst, std::abs(run.flow.velocity()[axis][face] - (axis == 0 ? 0.7 : 0.3)));
     });
   EXPECT_LT(max_over_ranks(run.grid, worst), 1e-12);
-  EXPECT_GT(run.time, 1.0);
+  EXPECT_GT(run.time, 0.6);
 }
 
 /// Ground that gives way: a source of grains in the lowest cell lifts the column above it by U.
