@@ -212,14 +212,17 @@ double radical_inverse(int i, int base) {
 }
 
 bool overlap(const Shape& one, const Shape& other, const BoxShape& domain) {
+  constexpr double largest_slack = 1e3;  // the domain may have no end along y
   BoxShape common;
   const BoxShape a = bounds(one), b = bounds(other);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     common.lower[axis] = std::max({a.lower[axis], b.lower[axis], domain.lower[axis]});
     common.upper[axis] = std::min({a.upper[axis], b.upper[axis], domain.upper[axis]});
     const double size = common.upper[axis] - common.lower[axis];
-    if (size <= 1e-9 * (domain.upper[axis] - domain.lower[axis])) return false;
-    if (std::isinf(size)) common.lower[axis] = common.upper[axis] = 0.0;
+    if (std::isinf(size))
+      common.lower[axis] = common.upper[axis] = 0.0;
+    else if (size <= 1e-9 * std::min(domain.upper[axis] - domain.lower[axis], largest_slack))
+      return false;
   }
   constexpr int samples = 16384;
   constexpr std::array<int, 3> bases{2, 3, 5};
@@ -263,7 +266,8 @@ void check_overlaps(Reading& reading, const std::vector<NamedShape>& grounds) {
 
 std::string read_name(Section& section, std::vector<std::string>& used) {
   const std::string name = section.text("name");
-  if (!section.has("name")) return name;
+  const Value* written = section.raw("name");
+  if (!written || !std::holds_alternative<std::string>(written->data)) return name;
   const bool plain =
       !name.empty() && name.size() <= 100 && name.front() != '.' &&
       std::all_of(name.begin(), name.end(), [](unsigned char c) {
