@@ -2,62 +2,71 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
-
 #include "materials/registry.hpp"
 
 namespace mudlark {
 namespace {
 
-constexpr double young = 1e6, poisson = 0.3;  // [Pa], [-]: the paper's Table 1
-const LinearElastic law(LinearElasticOptions{young, poisson});
+constexpr double young = 3e6, poisson = 0.25;
 
-SymTensor stress_of(const SymTensor& strain) {
-  std::array<SymTensor, 1> stress{};
-  const std::array<SymTensor, 1> increment{strain};
-  EXPECT_EQ(law.update_stress({increment, stress, {}, 0.0}), 0u);
-  return stress[0];
+SymTensor stress_after(const SoilModel& law, SymTensor stress, const SymTensor& strain) {
+  EXPECT_EQ(law.update_stress({{&strain, 1}, {&stress, 1}, {}, 0.1}), 0u);
+  return stress;
 }
 
-TEST(LinearElastic, StretchesAndNarrowsABarByYoungAndPoisson) {
-  const SymTensor stress = stress_of({0.01, -0.003, -0.003, 0.0, 0.0, 0.0});
-  EXPECT_NEAR(stress.xx, young * 0.01, 1e-9);
-  EXPECT_NEAR(stress.yy, 0.0, 1e-9);
-  EXPECT_NEAR(stress.zz, 0.0, 1e-9);
+void expect_near(const SymTensor& a, const SymTensor& b, double tolerance) {
+  EXPECT_NEAR(a.xx, b.xx, tolerance);
+  EXPECT_NEAR(a.yy, b.yy, tolerance);
+  EXPECT_NEAR(a.zz, b.zz, tolerance);
+  EXPECT_NEAR(a.xy, b.xy, tolerance);
+  EXPECT_NEAR(a.yz, b.yz, tolerance);
+  EXPECT_NEAR(a.zx, b.zx, tolerance);
 }
 
-TEST(LinearElastic, ShearsByTwiceTheShearModulus) {
-  const SymTensor stress = stress_of({0.0, 0.0, 0.0, 0.01, -0.02, 0.03});
-  const double shear = young / (2.0 * (1.0 + poisson));
-  EXPECT_NEAR(law.shear_modulus(), shear, 1e-9);
-  EXPECT_NEAR(stress.xy, 2.0 * shear * 0.01, 1e-9);
-  EXPECT_NEAR(stress.yz, 2.0 * shear * -0.02, 1e-9);
-  EXPECT_NEAR(stress.zx, 2.0 * shear * 0.03, 1e-9);
-  EXPECT_EQ(stress.trace(), 0.0);
+TEST(LinearElastic, UniaxialStressStretchesByYoungAndNarrowsByPoisson) {
+  const LinearElastic law({young, poisson});
+  const double e = 1e-3;
+  expect_near(stress_after(law, {}, {-poisson * e, -poisson * e, e, 0, 0, 0}),
+              {0, 0, young * e, 0, 0, 0}, 1e-9 * young * e);
 }
 
-TEST(LinearElastic, ResistsConfinedCompressionWithItsWaveModulus) {
-  const double modulus = young * (1.0 - poisson) / ((1.0 + poisson) * (1.0 - 2.0 * poisson));
-  EXPECT_NEAR(law.wave_modulus({}, {}), modulus, 1e-8);
-  EXPECT_NEAR(stress_of({0.0, 0.0, -0.02, 0.0, 0.0, 0.0}).zz, -0.02 * modulus, 1e-9);
+TEST(LinearElastic, ConfinedCompressionMeetsTheWaveModulusAndTheLateralPressure) {
+  const LinearElastic law({young, poisson});
+  const double e = -2e-3, modulus = young * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson));
+  EXPECT_NEAR(law.wave_modulus({}, {}), modulus, 1e-9 * modulus);
+  const double lateral = poisson / (1 - poisson) * modulus * e;
+  expect_near(stress_after(law, {}, {0, 0, e, 0, 0, 0}), {lateral, lateral, modulus * e, 0, 0, 0},
+              1e-9 * modulus);
 }
 
-TEST(LinearElastic, AddsToTheStressThatIsThereAndFindsItsStrainAgain) {
-  const SymTensor first{-0.01, 0.02, -0.03, 0.004, 0.005, -0.006};
-  const SymTensor second{0.03, 0.01, 0.0, -0.001, 0.002, 0.003};
-  std::array<SymTensor, 1> stress{stress_of(first)};
-  const std::array<SymTensor, 1> increment{second};
-  law.update_stress({increment, stress, {}, 0.0});
-  const SymTensor strain = law.elastic_strain(stress[0]), sum = first + second;
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 3; ++column)
-      EXPECT_NEAR(strain.between<3>(row, column), sum.between<3>(row, column), 1e-15);
+TEST(LinearElastic, TensorShearMeetsTwiceTheShearModulus) {
+  const LinearElastic law({young, poisson});
+  const double shear = young / (2 * (1 + poisson));
+  EXPECT_DOUBLE_EQ(law.shear_modulus(), shear);
+  expect_near(stress_after(law, {}, {0, 0, 0, 1e-3, -2e-3, 3e-3}),
+              {0, 0, 0, 2e-3 * shear, -4e-3 * shear, 6e-3 * shear}, 1e-9 * shear);
 }
 
-TEST(SoilLaws, ComeFromTheirOptionsByOneRegistry) {
+TEST(LinearElastic, AddsToTheStressThatIsThere) {
+  const LinearElastic law({young, poisson});
+  const SymTensor strain{1e-3, -2e-3, 5e-4, 1e-4, 2e-4, -3e-4}, start{1, 2, 3, 4, 5, 6};
+  expect_near(stress_after(law, start, strain), start + stress_after(law, {}, strain), 1e-8);
+}
+
+TEST(LinearElastic, ElasticStrainIsTheInverseOfTheStress) {
+  for (const double nu : {-0.5, 0.0, 0.3, 0.499}) {
+    const LinearElastic law({young, nu});
+    const SymTensor stress{-1e4, 2e4, -3e4, 5e3, -6e3, 7e3};
+    expect_near(stress_after(law, {}, law.elastic_strain(stress)), stress, 1e-7);
+  }
+}
+
+TEST(Registry, MakesTheLawAndKnowsItsStrainMeasure) {
   const SoilLawOptions options = LinearElasticOptions{young, poisson, StrainMeasure::objective};
-  const auto made = make_soil_model(options);
-  EXPECT_EQ(made->name(), "linear-elastic");
+  const auto law = make_soil_model(options);
+  EXPECT_EQ(law->name(), "linear-elastic");
+  EXPECT_TRUE(law->history_names().empty());
+  EXPECT_DOUBLE_EQ(law->shear_modulus(), young / (2 * (1 + poisson)));
   EXPECT_EQ(strain_measure(options), StrainMeasure::objective);
 }
 
