@@ -163,8 +163,10 @@ class Results:
             data = next(d for d in group.values() if _text(d.attrs["name"]) == name)
             lower, spacing = group.attrs["lower"], group.attrs["spacing"]
             values = data[()]
-            if int(data.attrs["components"]) == 3 and len(spacing) == 2:
-                values = values[..., [0, 2]]
+            if len(spacing) == 2:  # stored with one layer along y
+                values = values[:, 0]
+                if int(data.attrs["components"]) == 3:
+                    values = values[..., [0, 2]]
             return FieldState(name, _text(data.attrs["unit"]), at, values, lower, spacing)
 
     def points(self, time=None):

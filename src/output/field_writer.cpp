@@ -11,7 +11,8 @@ namespace {
 template <int D>
 XdmfGrid shown_grid(const Grid<D>& grid) {
   XdmfGrid shown;
-  shown.spacing[1] = 1.0;
+  shown.spacing[1] = grid.spacing()[0];
+  shown.cells[1] = 1;
   for (int a = 0; a < D; ++a) {
     const auto to = static_cast<std::size_t>(a == D - 1 ? 2 : a);
     shown.lower[to] = grid.lower()[a];
@@ -48,8 +49,10 @@ Slab FieldWriter<D>::slab(int components) const {
     slab.count.push_back(static_cast<hsize_t>(count));
   };
   const IndexBox<D>& owned = grid_->owned();
-  for (int a = D - 1; a >= 0; --a)
+  for (int a = D - 1; a >= 0; --a) {
+    if (D == 2 && a == 0) add(1, 0, 1);  // the one layer along y
     add(grid_->cells()[a], owned.lower[a], owned.upper[a] - owned.lower[a]);
+  }
   if (components > 1) add(components, 0, components);
   return slab;
 }

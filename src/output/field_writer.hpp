@@ -11,8 +11,8 @@
 namespace mudlark {
 
 /// Writes cell fields as they are and face vectors averaged to the cell centres, u_i = (u_i- +
-/// u_i+) / 2. Arrays in the file: [z][y][x], in 2D [z][x]; vectors have three components more (x y
-/// z, in 2D y = 0).
+/// u_i+) / 2. Arrays in the file: [z][y][x], in 2D with one layer along y; vectors have three
+/// components more (x y z, in 2D y = 0).
 template <int D>
 class FieldWriter {
  public:

@@ -82,13 +82,14 @@ std::string head(const StoredOutput& output, const char* name) {
 std::string xdmf_of_fields(const std::string& data_file, const XdmfGrid& grid,
                            const std::vector<StoredOutput>& outputs) {
   const auto& [lower, spacing, cells] = grid;
-  const std::string extent = cells[1] > 0 ? fmt::format("{} {} {}", cells[2], cells[1], cells[0])
-                                          : fmt::format("{} {}", cells[2], cells[0]);
+  const std::string extent = fmt::format("{} {} {}", cells[2], cells[1], cells[0]);
   const std::string geometry = fmt::format(
       "      <Topology TopologyType=\"3DCoRectMesh\" Dimensions=\"{} {} {}\"/>\n"
       "      <Geometry GeometryType=\"ORIGIN_DXDYDZ\"><DataItem Dimensions=\"3\" "
+      "NumberType=\"Float\" Precision=\"8\" "
       "Format=\"XML\">{:.17g} {:.17g} {:.17g}"
-      "</DataItem><DataItem Dimensions=\"3\" Format=\"XML\">{:.17g} {:.17g} "
+      "</DataItem><DataItem Dimensions=\"3\" NumberType=\"Float\" Precision=\"8\" "
+      "Format=\"XML\">{:.17g} {:.17g} "
       "{:.17g}</DataItem></Geometry>\n",
       cells[2] + 1, cells[1] + 1, cells[0] + 1, lower[2], lower[1], lower[0], spacing[2],
       spacing[1], spacing[0]);

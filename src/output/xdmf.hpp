@@ -8,10 +8,10 @@
 
 namespace mudlark {
 
-/// Uniform grid in space; in 2D one layer of cells in the x-z plane (`cells[1]` = 0: no extent
-/// along y).
+/// Uniform grid in space, axes x y z. A 2D grid is shown as a sheet of one cell from y = 0 on, in
+/// the x-z plane: ParaView 5.11 reads no cell values of a grid without thickness.
 struct XdmfGrid {
-  std::array<double, 3> lower{}, spacing{};  ///< [m], x y z
+  std::array<double, 3> lower{}, spacing{};  ///< [m]
   std::array<int, 3> cells{};
 };
 
