@@ -32,6 +32,7 @@ gravity = 9.81
 end = 0.02
 output_every = 0.01
 [water]
+bulk_modulus = 2.15e7
 [[water.body]]
 shape = {{ box = {{ lower = {lower}, upper = {water} }} }}
 [[soil]]
@@ -193,7 +194,7 @@ def main():
     parser.add_argument("--out", type=Path, default=Path("."))
     arguments = parser.parse_args()
     if not os.environ.get("DISPLAY") and shutil.which("xvfb-run"):
-        os.execvp("xvfb-run", ["xvfb-run", "-a", sys.executable, *sys.argv])
+        os.execvp("xvfb-run", ["xvfb-run", "-a", "--wait=8", sys.executable, *sys.argv])
     arguments.out.mkdir(parents=True, exist_ok=True)
     problems = []
     with tempfile.TemporaryDirectory() as scratch:
