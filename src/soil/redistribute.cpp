@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <numeric>
 
 #include "parallel/collective_error.hpp"
@@ -55,6 +56,12 @@ std::vector<double> exchange(MPI_Comm comm, const std::vector<double>& send, int
   return received;
 }
 
+template <int D>
+std::string place_text(const Vec<D>& position) {
+  const Point3 x = to_point3(position);
+  return fmt::format("({:.6g}, {:.6g}, {:.6g}) m", x[0], x[1], x[2]);
+}
+
 /// Deals with the points beyond a wall: wraps, removes, or reports them. Returns the grain mass
 /// removed.
 template <int D>
@@ -69,21 +76,32 @@ double treat_walls(const Grid<D>& grid, SoilParticles<D>& points) {
       const int side = x < lower ? 0 : x >= upper ? 1 : -1;
       if (side < 0 || gone[p]) continue;
       if (grid.periodic(a)) {
-        x += side == 0 ? length : -length;
-        points.start[a][p] += side == 0 ? length : -length;
+        const double turns = length * std::floor((x - lower) / length);
+        x -= turns;
+        points.start[a][p] -= turns;
       } else if (grid.wall(a, side) == Wall::open) {
         gone[p] = 1;
         removed += points.grain_mass[p];
       } else if (problem.empty()) {
         problem = fmt::format(
-            "a material point (id {}) went through the closed wall on the {} side of axis {}",
-            points.id[p], side == 0 ? "lower" : "upper", a);
+            "a material point (id {}) went through the closed wall on the {} side of axis {} at {}",
+            points.id[p], side == 0 ? "lower" : "upper", "xyz"[D == 2 && a == 1 ? 2 : a],
+            place_text(points.position_of(p)));
       }
     }
   }
   throw_divergence_if_any(grid.comm(), problem);
   if (removed > 0.0) remove_flagged(points, gone);
   return removed;
+}
+
+/// Cell of the domain that a point belongs to. Round-off may put a point that lies a hair inside
+/// the upper side into the cell behind it, which nobody owns.
+template <int D>
+Index<D> home_cell(const Grid<D>& grid, const Vec<D>& position) {
+  Index<D> cell = grid.cell_at(position);
+  for (int a = 0; a < D; ++a) cell[a] = std::clamp(cell[a], 0, grid.cells()[a] - 1);
+  return cell;
 }
 
 template <int D>
@@ -94,7 +112,7 @@ void send_to_side(const Grid<D>& grid, SoilParticles<D>& points, int axis, int s
   std::vector<char> leaving(points.size(), 0);
   if (to != MPI_PROC_NULL)
     for (std::size_t p = 0; p < points.size(); ++p) {
-      const int cell = grid.cell_at(points.position_of(p))[axis];
+      const int cell = home_cell(grid, points.position_of(p))[axis];
       leaving[p] = side == 0 ? cell < grid.owned().lower[axis] : cell >= grid.owned().upper[axis];
     }
   const std::vector<double> received = exchange(grid.comm(), pack(points, leaving), to, from);
@@ -114,7 +132,7 @@ double migrate(const Grid<D>& grid, SoilParticles<D>& points) {
         if (grid.partition().processes[axis] > 1) send_to_side(grid, points, axis, side);
     int mine = 0;
     for (std::size_t p = 0; p < points.size(); ++p)
-      if (!grid.owned().contains(grid.cell_at(points.position_of(p)))) mine = 1;
+      if (!grid.owned().contains(home_cell(grid, points.position_of(p)))) mine = 1;
     MPI_Allreduce(&mine, &away, 1, MPI_INT, MPI_MAX, grid.comm());
   }
   return removed;
