@@ -91,7 +91,7 @@ ExitCode info_command(const std::string& results) {
     fmt::print("no summary yet: the run goes on, or was ended from outside\n");
   else
     print_object(summary, 0);
-  print_gauges(folder / "gauges");
+  if (!summary.contains("gauges")) print_gauges(folder / "gauges");
   print_outputs(folder / "fields.xdmf");
   print_outputs(folder / "points.xdmf");
   if (fs::is_directory(folder / "checkpoint"))
