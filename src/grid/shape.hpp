@@ -14,10 +14,11 @@ struct Shape;
 struct BoxShape {
   Point3 lower, upper;
 };
-/// Prism over a polygon in the x-z plane (2D) or, in 3D, over a polygon in the x-y plane between two heights.
+/// Prism over a polygon in the x-z plane (2D) or, in 3D, over a polygon in the x-y plane between
+/// two heights.
 struct PolygonShape {
   std::vector<std::array<double, 2>> corners;
-  bool vertical_plane = true;   ///< true: corners are (x, z); false: (x, y)
+  bool vertical_plane = true;      ///< true: corners are (x, z); false: (x, y)
   double bottom = 0.0, top = 0.0;  ///< [m] heights, only for vertical_plane = false
 };
 /// Circle in 2D (y ignored), sphere in 3D.
@@ -30,7 +31,8 @@ struct CylinderShape {
   Point3 from, to;  ///< ends of the axis
   double radius;
 };
-/// Everything below a ground line given as (x, z) pairs, linear between them, level beyond the ends.
+/// Everything below a ground line given as (x, z) pairs, linear between them, level beyond the
+/// ends.
 struct BelowShape {
   std::vector<std::array<double, 2>> line;
 };
@@ -43,13 +45,15 @@ struct DifferenceShape {
 };
 
 struct Shape {
-  std::variant<BoxShape, PolygonShape, SphereShape, CylinderShape, BelowShape, UnionShape, DifferenceShape> form;
+  std::variant<BoxShape, PolygonShape, SphereShape, CylinderShape, BelowShape, UnionShape,
+               DifferenceShape>
+      form;
 
   bool contains(const Point3& position) const;
 };
 
-/// Share of the box [lower, upper] that lies inside the shape, 0..1: exact for boxes, by regular sampling
-/// (16 points per axis in 2D, 8 in 3D) otherwise.
+/// Share of the box [lower, upper] that lies inside the shape, 0..1: exact for boxes, by regular
+/// sampling (16 points per axis in 2D, 8 in 3D) otherwise.
 double fraction_inside(const Shape& shape, const Point3& lower, const Point3& upper, int dimension);
 
 /// Smallest box around a shape; sides to which the shape has no end are infinite.
