@@ -183,7 +183,7 @@ def judge_terzaghi(run, findings, axes):
     squares = []
     for time in run.results.point_times:
         factor = float(theory.time_factor(time))
-        if not 0.0199 <= factor <= 1.01:
+        if not 0.0199 <= factor <= 1.001:
             continue
         points = run.results.points(time)
         height, pressure = points["initial position"][:, 2], points["pore pressure"]

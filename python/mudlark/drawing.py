@@ -1,0 +1,175 @@
+"""Drawing one state of a case into axes: water as blue shading, fixed porous ground as hatched stone, soil as
+points that fill their share of space. 3D states are cut along the vertical plane in the middle of y."""
+import numpy as np
+from matplotlib.collections import PolyCollection
+from matplotlib.colors import LinearSegmentedColormap, Normalize
+
+WATER = LinearSegmentedColormap.from_list("water", [(0.12, 0.45, 0.78, 0.0), (0.12, 0.45, 0.78, 0.75)])
+GROUND = "#b9a68a"
+SOIL = "#a9793f"
+NARROW = 4.0  # domains that are higher or longer than this many times the other way are not drawn to scale
+
+
+def middle_cut(values, axes):
+    """The x-z plane of a field."""
+    return values if axes == 2 else values[:, values.shape[1] // 2]
+
+
+def extent(state):
+    lower, upper = state.lower, state.upper
+    return [lower[0], upper[0], lower[-1], upper[-1]]
+
+
+def points_in_cut(points, state):
+    """Which points lie in the drawn layer of cells; all in 2D."""
+    if state is None or len(state.lower) == 2:
+        return np.ones(len(points), bool)
+    cells = state.values.shape[1]
+    low = state.lower[1] + (cells // 2) * state.spacing[1]
+    y = points["position"][:, 1]
+    return (y >= low) & (y < low + state.spacing[1])
+
+
+def draw_water(axes, results, time, points=None):
+    """Blue where free water is; returns the state, None without water."""
+    names = results.field_names
+    name = next((n for n in ("saturation", "water fraction") if n in names), None)
+    if name is None:
+        return None
+    state = results.field(name, time)
+    shading = middle_cut(state.values, len(state.lower)).copy()
+    if points is not None and len(points):
+        # No blue between the points; the cells at the surface of the soil keep theirs above it.
+        soil = near_points(state, points, reach=0)
+        soil[:-1] &= soil[1:]
+        shading[soil] = 0.0
+    axes.imshow(shading, origin="lower", extent=extent(state), cmap=WATER, vmin=0, vmax=1, interpolation="nearest",
+                aspect="auto", zorder=1)
+    return state
+
+
+def near_points(state, points, reach):
+    """Cells of the x-z plane with a soil point in them or within `reach` cells."""
+    counts = (state.values.shape[0], state.values.shape[len(state.lower) - 1])
+    near = np.zeros(counts, bool)
+    row = np.floor((points["position"][:, 2] - state.lower[-1]) / state.spacing[-1]).astype(int)
+    column = np.floor((points["position"][:, 0] - state.lower[0]) / state.spacing[0]).astype(int)
+    for up in range(-reach, reach + 1):
+        for aside in range(-reach, reach + 1):
+            near[np.clip(row + up, 0, counts[0] - 1), np.clip(column + aside, 0, counts[1] - 1)] = True
+    return near
+
+
+def draw_ground(axes, results, time, points):
+    """Hatches cells that are porous without holding soil points."""
+    if "porosity" not in results.field_names:
+        return None
+    state = results.field("porosity", time)
+    solid = middle_cut(state.values, len(state.lower)) < 0.999
+    if points is not None and len(points):
+        solid &= ~near_points(state, points, reach=2)  # soil spreads its porosity over the neighbouring cells
+    if solid.any():
+        left, right, bottom, top = extent(state)
+        x = np.concatenate([[left], state.centres(0), [right]])
+        z = np.concatenate([[bottom], state.centres(len(state.lower) - 1), [top]])
+        axes.contourf(x, z, np.pad(solid.astype(float), 1, mode="edge"), levels=[0.5, 2.0], colors=[GROUND],
+                      hatches=["..."], alpha=0.6, zorder=2)
+    return state
+
+
+def sides(points):
+    """Width and height of the rectangle that each point fills [m]: the spacing at which the points were laid out,
+    stretched as the whole body was, with the volume that the point has now."""
+    volume = points["volume"] if "volume" in points else np.full(len(points), 1e-4)
+    flat = not np.any(points["position"][:, 1])
+    width = volume ** (1 / 2 if flat else 1 / 3)
+    height = width.copy()
+    if "initial position" not in points:
+        return width, height
+    soil = points["soil"] if "soil" in points else np.zeros(len(points))
+    for body in np.unique(soil):
+        chosen = soil == body
+        start, now = points["initial position"][chosen], points["position"][chosen]
+        step = []
+        for axis in (0, 2):
+            levels = np.unique(np.round(start[:, axis], 9))
+            stretch = np.ptp(now[:, axis]) / np.ptp(levels) if len(levels) > 1 else 1.0
+            step.append(np.median(np.diff(levels)) * np.clip(stretch, 0.5, 2.0) if len(levels) > 1 else np.nan)
+        if flat and np.all(np.isfinite(step)):
+            # A body that keeps its width has points that keep theirs: all their volume goes from their height.
+            confined = abs(np.ptp(now[:, 0]) / max(np.ptp(start[:, 0]), 1e-300) - 1) < 0.02
+            width[chosen] = step[0] * (1.0 if confined else np.sqrt(volume[chosen] / (step[0] * step[1])))
+            height[chosen] = volume[chosen] / width[chosen]
+    return width, height
+
+
+def draw_points(axes, points, chosen, values=None, norm=None, cmap="viridis"):
+    """Rectangles of the points' size, coloured by `values`."""
+    x, z = points["position"][chosen][:, 0], points["position"][chosen][:, 2]
+    width, height = (0.5 * side[chosen] for side in sides(points))
+    corners = np.stack([np.stack([x + sx * width, z + sz * height], axis=-1)
+                        for sx, sz in ((-1, -1), (1, -1), (1, 1), (-1, 1))], axis=1)
+    squares = PolyCollection(corners, zorder=3, linewidths=0.3, rasterized=len(x) > 20000)
+    if values is None:
+        squares.set_facecolor(SOIL)
+        squares.set_edgecolor("face")
+    else:
+        squares.set_array(values[chosen])
+        squares.set_norm(norm)
+        squares.set_cmap(cmap)
+        squares.set_edgecolor("face")
+    axes.add_collection(squares)
+    return squares
+
+
+def frame(results, all_points, grid):
+    """Part of the x-z plane worth showing: the whole domain, or, when that is a thin strip, the soil with some room."""
+    if grid is not None:
+        left, right, bottom, top = extent(grid)
+    else:
+        positions = np.concatenate([points["position"] for points in all_points])
+        left, _, bottom = positions.min(axis=0)
+        right, _, top = positions.max(axis=0)
+    thin = (top - bottom) > NARROW * (right - left)
+    if thin and all_points and len(all_points[0]):
+        z = np.concatenate([points["position"][:, 2] for points in all_points])
+        room = 0.15 * (z.max() - z.min()) + 1e-12
+        bottom, top = max(bottom, z.min() - room), min(top, z.max() + room)
+    return left, right, bottom, top
+
+
+def apply_frame(axes, limits):
+    left, right, bottom, top = limits
+    axes.set_xlim(left, right)
+    axes.set_ylim(bottom, top)
+    wide, high = right - left, top - bottom
+    if max(wide, high) <= NARROW * min(wide, high):
+        axes.set_aspect("equal")
+    else:
+        axes.set_aspect("auto")
+    axes.set_xlabel("x [m]")
+    axes.set_ylabel("z [m]")
+
+
+def panel_size(limits):
+    """Width and height of one panel in inches."""
+    left, right, bottom, top = limits
+    ratio = min(max((top - bottom) / (right - left), 0.28), 2.2)
+    return (5.6, 5.6 * ratio) if ratio < 1 else (4.6 / ratio + 0.6, 4.6)
+
+
+def shared_norm(states):
+    values = np.concatenate([np.ravel(state) for state in states]) if states else np.array([0.0, 1.0])
+    values = values[np.isfinite(values)]
+    low, high = (values.min(), values.max()) if values.size else (0.0, 1.0)
+    return Normalize(low, high if high > low else low + 1.0)
+
+
+def unit_scale(unit, norm):
+    """Factor and unit for axis labels that are easy to read: kPa for large pressures, mm for short ways."""
+    largest = max(abs(norm.vmin), abs(norm.vmax))
+    if unit == "Pa" and largest >= 2e3:
+        return 1e-3, "kPa"
+    if unit == "m" and largest < 0.1:
+        return 1e3, "mm"
+    return 1.0, unit
