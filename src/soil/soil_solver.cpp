@@ -193,7 +193,7 @@ void SoilSolver<D>::gather_nodes() {
     points_to_grid(*grid_, points_[b], constants_[b], options_.kernel, options_.transfer,
                    facets ? SurfacePressure<D>{} : surface, sums_);
   if (exchanges_halos()) halo_.add_to_owners(as_doubles<NodeSums, D>(sums_), node_sums);
-  fold_into_domain(*grid_, active_, sums_);
+  fold_into_domain(*grid_, active_, options_.water_density, sums_);
   if (facets) {
     for_each(active_, [&](const Index<D>& cell) { occupied_[cell] = 0.0; });
     for (const auto& points : points_) mark_occupied(*grid_, points, occupied_);
