@@ -7,7 +7,10 @@ namespace mudlark {
 namespace {
 
 /// Cells with less than this share of the soil's solid fraction count as open water (or air).
-constexpr double open_share = 0.5;
+/// Further inside, the flow's pressure is only its estimate of seepage, which at low permeability
+/// turns the smallest change of porosity into large pressures: none of that may come back to the
+/// soil as a load.
+constexpr double open_share = 0.02;
 /// Porosity that the water solver never goes below, so that squeezed cells keep an equation.
 constexpr double least_porosity = 0.05;
 
@@ -84,17 +87,16 @@ double SurfaceCoupling<D>::added_mass(double dt) const {
   return dt > 0.0 ? water_density_ * water_depth_ / (impedance_ * dt) : 0.0;
 }
 
-/// Depth of the water over the soil: the largest pressure in the open cells that touch soil, as a
-/// column.
+/// Depth of the water over the soil: the largest pressure at the mudline, as a column.
 template <int D>
-void SurfaceCoupling<D>::measure_depth(const FlowSolver<D>& flow) {
+void SurfaceCoupling<D>::measure_depth(const CellField<D>& pressure) {
   double depth = 0.0, width = 0.0;
   const double weight = water_density_ * std::abs(grid_->gravity()[D - 1]);
   for (int a = 0; a < D - 1; ++a) width = std::max(width, grid_->cells()[a] * grid_->spacing()[a]);
   if (weight > 0.0)
     for_each(grid_->owned(), [&](const Index<D>& cell) {
-      if (open_[cell] > 0.0 && fraction_[cell] > 0.0)
-        depth = std::max(depth, flow.pressure()[cell] / weight);
+      const double share = fraction_[cell] / full_fraction_;
+      if (share > 0.1 && share < 0.9) depth = std::max(depth, pressure[cell] / weight);
     });
   water_depth_ = std::min(max_over_ranks(*grid_, depth), width / 3.14159265358979323846);
 }
@@ -127,7 +129,7 @@ void SurfaceCoupling<D>::map_flow_at_end(const FlowSolver<D>& flow, const SoilSo
   extended_pressure(flow, soil, load_share(time), load.pressure_end);
   if (options_.pressure_in_time == PressureInTime::constant)
     load.pressure_begin.copy_values_from(load.pressure_end);
-  measure_depth(flow);
+  measure_depth(load.pressure_end);
 }
 
 template <int D>

@@ -58,7 +58,7 @@ class SurfaceCoupling {
   }
 
  private:
-  void measure_depth(const FlowSolver<D>& flow);
+  void measure_depth(const CellField<D>& pressure);
   void extended_pressure(const FlowSolver<D>& flow, const SoilSolver<D>& soil, double share,
                          CellField<D>& pressure);
 

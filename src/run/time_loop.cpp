@@ -23,6 +23,19 @@ Agreement agree(MPI_Comm comm, bool save_due) {
   return {all[0] != 0, all[1] != 0};
 }
 
+/// Says once in the log when loose coupling would have diverged, and what is done about it.
+template <int D>
+void note_added_mass(World<D>& world, Results<D>& results, double dt, bool& noted) {
+  const double a = world.added_mass(dt);
+  if (noted || a <= 0.5) return;
+  noted = true;
+  results.log(fmt::format(
+      "t = {:.6g} s: added mass of the water on the soil, a = rho_w H / (Z dt) = {:.3g}, is above "
+      "1/2: loose "
+      "coupling would diverge; the water sees the bed's velocity relaxed by 1/(1 + 2 a {:g}).",
+      world.clock().time(), a, world.options().coupling.added_mass_factor));
+}
+
 }  // namespace
 
 template <int D>
@@ -32,6 +45,7 @@ ExitCode run_to_end(World<D>& world, Results<D>& results, const RunSettings& set
   const bool first = world.grid().rank() == 0;
   Progress progress(first && !settings.quiet, clock.time(), world.options().time.end);
   double saved = MPI_Wtime();
+  bool noted = false;
   try {
     results.write_due(world);
     results.write_summary(world, "running", "");
@@ -40,6 +54,7 @@ ExitCode run_to_end(World<D>& world, Results<D>& results, const RunSettings& set
     while (!clock.finished()) {
       const double dt = clock.choose_step(world.stable_step());
       world.advance(dt);
+      note_added_mass(world, results, dt, noted);
       results.write_due(world);
       progress.show(clock.time(), clock.step(), dt, clock.finished());
       const bool due = first && MPI_Wtime() - saved > world.options().time.checkpoint_every;

@@ -34,6 +34,9 @@ class World {
   SoilSolver<D>* soil() { return soil_ ? &*soil_ : nullptr; }
   const PorousMedium<D>& medium() const { return medium_; }
   Clock& clock() { return clock_; }
+  /// Added-mass number a of the coupling for a step [s] (above 1/2 loose coupling would diverge); 0
+  /// without coupling.
+  double added_mass(double dt) const { return coupling_ ? coupling_->added_mass(dt) : 0.0; }
 
   /// Seconds spent per phase, and counts, on this rank.
   struct Effort {
