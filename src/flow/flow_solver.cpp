@@ -19,6 +19,9 @@ namespace {
 constexpr double drift_feedback = 0.1;
 /// W may leave 0..theta by no more than this: round-off of the sweeps.
 constexpr double bound_tolerance = 1e-12;
+/// Less water than this does not limit the step: what it could overshoot by is far within the
+/// tolerance.
+constexpr double nothing = 1e-13;
 
 }  // namespace
 
@@ -226,7 +229,7 @@ double FlowSolver<D>::courant_rate() const {
   const double* theta = porosity_.data();
   double fastest = 0.0;
   for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) {
-    const bool all = InterfaceAdvection<D>::dilates(w[at], theta[at]), wet = w[at] > 0.0;
+    const bool all = InterfaceAdvection<D>::dilates(w[at], theta[at]), wet = w[at] > nothing;
     double in = 0.0, out = 0.0;
     for (int axis = 0; axis < D; ++axis) {
       const std::ptrdiff_t s = grid.stride(axis);
@@ -234,8 +237,8 @@ double FlowSolver<D>::courant_rate() const {
       const double* v = velocity_[axis].data();
       const double lower = 0.5 * (theta[at] + theta[at - s]) * v[at] * inverse;
       const double upper = 0.5 * (theta[at] + theta[at + s]) * v[at + s] * inverse;
-      if (lower > 0.0 && (all || w[at - s] > 0.0)) in += lower;
-      if (upper < 0.0 && (all || w[at + s] > 0.0)) in -= upper;
+      if (lower > 0.0 && (all || w[at - s] > nothing)) in += lower;
+      if (upper < 0.0 && (all || w[at + s] > nothing)) in -= upper;
       if (wet) out += std::max(-lower, 0.0) + std::max(upper, 0.0);
     }
     fastest = std::max(fastest, std::max(in, out) / theta[at]);
