@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "installation.hpp"
+#include "parallel/session_folder.hpp"
 #include "parallel_session.hpp"
 
 namespace mudlark {
@@ -89,6 +90,7 @@ ExitCode run_on_ranks(int ranks, const std::vector<std::string>& arguments) {
   std::vector<std::string> words{"mpiexec", "-n", std::to_string(ranks), program_path().string()};
   words.insert(words.end(), arguments.begin(), arguments.end());
   const ExitCodeFile file;
+  const SessionFolder folder;
   const pid_t child = fork();
   if (child < 0) throw std::runtime_error("no further process can be started");
   if (child == 0) become_launcher(words, file.name());

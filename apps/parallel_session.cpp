@@ -13,6 +13,8 @@
 #include <string>
 #include <thread>
 
+#include "parallel/session_folder.hpp"
+
 namespace mudlark {
 namespace {
 
@@ -104,6 +106,7 @@ ExitCode guarded(const std::function<ExitCode()>& body) {
 ExitCode in_parallel(const std::function<ExitCode()>& body) {
   const bool under_run = std::getenv(exit_code_variable) != nullptr;
   if (under_run) std::signal(SIGUSR1, stop_gently);
+  const SessionFolder folder;
   MPI_Init(nullptr, nullptr);
   // PETSc would catch crashes and Ctrl-C and print pages about them; errors here are exceptions.
   PetscOptionsSetValue(nullptr, "-no_signal_handler", "true");

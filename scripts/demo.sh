@@ -34,6 +34,10 @@ run_case coupled
 wait "$soil_only"
 trap - EXIT
 "$program" plot results/coupled
-/usr/bin/python3 cases/consolidation/compare.py --results results --picture results/coupled/settlement.png
+echo
+# A number beyond its tolerance is said by the comparison and makes this script fail, but there is a picture.
+code=0
+/usr/bin/python3 cases/consolidation/compare.py results/mpm results/coupled --picture results/coupled/settlement.png || code=$?
 echo
 echo "The picture: $PWD/results/coupled/settlement.png"
+exit "$code"

@@ -3,7 +3,10 @@
 #include <mpi.h>
 #include <petscsys.h>
 
+#include "parallel/session_folder.hpp"
+
 int main(int argc, char** argv) {
+  const mudlark::SessionFolder folder;
   MPI_Init(&argc, &argv);
   testing::InitGoogleTest(&argc, argv);
   if (PetscInitializeNoArguments()) return 3;
