@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <sys/mount.h>
 
+#include <algorithm>
 #include <numeric>
 
 #include "base/errors.hpp"
@@ -230,6 +231,39 @@ TEST(Checkpoint, LeavesTheEarlierStateAloneWhenTheDiskIsFull) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "state-B.h5.part"));
   MPI_Barrier(MPI_COMM_WORLD);
   if (folder.first_rank()) umount(folder.path().c_str());
+}
+
+TEST(Checkpoint, FitsAnotherNumberOfRanks) {
+  const TemporaryFolder folder;
+  const Grid<3> together = small_grid<3>(), alone = small_grid<3>(false, MPI_COMM_SELF);
+  save(together, folder.path() / "all", 4.0);
+  if (folder.first_rank()) save(alone, folder.path() / "one", 4.0);
+  MPI_Barrier(MPI_COMM_WORLD);
+  const auto load = [&](const Grid<3>& grid, const char* name) {
+    CheckpointReader<3> reader(grid, folder.path() / name, "case");
+    State<3> state(grid);
+    state.archive(reader);
+    reader.finish();
+    return state;
+  };
+  const State<3> whole = load(alone, "all"), part = load(together, "one");
+  for_each(alone.owned(), [&](const Index<3>& cell) {
+    ASSERT_EQ(whole.water[cell], State<3>::value_at(alone.cell_centre(cell), 4.0));
+  });
+  for_each(together.owned_faces(2), [&](const Index<3>& face) {
+    ASSERT_EQ(part.velocity[2][face], 3.0 * State<3>::value_at(together.face_centre(2, face), 4.0));
+  });
+  // All points, in the order of the ranks that saved them; shared out evenly when more ranks load.
+  std::size_t saved = 0;
+  for (int rank = 0; rank < together.ranks(); ++rank)
+    saved += static_cast<std::size_t>(4 + 3 * rank);
+  EXPECT_EQ(whole.ids.size(), saved);
+  EXPECT_TRUE(std::is_sorted(whole.ids.begin(), whole.ids.end()));
+  EXPECT_EQ(whole.position.size(), 3 * saved);
+  long long mine = static_cast<long long>(part.ids.size()), total = 0;
+  MPI_Allreduce(&mine, &total, 1, MPI_LONG_LONG, MPI_SUM, MPI_COMM_WORLD);
+  EXPECT_EQ(total, 4);
+  EXPECT_LE(mine, (4 + together.ranks() - 1) / together.ranks());
 }
 
 TEST(Checkpoint, TellsWhenAskedForWhatItDoesNotHold) {

@@ -47,14 +47,14 @@ inline std::string text_of(const std::filesystem::path& file) {
 
 /// 12 x 10 (x 8) cells, wide enough for three ranks.
 template <int D>
-Grid<D> small_grid(bool periodic_x = false) {
+Grid<D> small_grid(bool periodic_x = false, MPI_Comm comm = MPI_COMM_WORLD) {
   DomainOptions options;
   options.dimension = D;
   options.lower = {-1.0, 0.5, 2.0};
   options.upper = {2.0, 3.0, 6.0};
   options.cells = {12, 10, 8};
   if (periodic_x) options.walls[0] = {Wall::periodic, Wall::periodic};
-  return Grid<D>(options, MPI_COMM_WORLD);
+  return Grid<D>(options, comm);
 }
 
 }  // namespace mudlark::testing_support

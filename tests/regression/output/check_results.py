@@ -1,0 +1,54 @@
+"""Called by python_reads_results_test.cpp: reads with mudlark.results what the C++ writers left, checks that both
+XDMF files are well-formed and name what is there, and draws every kind of picture."""
+import sys
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+from mudlark import picture, plot
+from mudlark.results import Results, ResultsError
+
+dimension, folder = int(sys.argv[1]), Path(sys.argv[2])
+results = Results(folder)
+assert results.times == [0.0, 0.5, 1.0] and results.point_times == results.times
+assert sorted(results.field_names) == ["porosity", "saturation", "velocity"]
+state = results.field("saturation", 0.6)
+assert state.time == 0.5
+cells = (10, 12) if dimension == 2 else (8, 10, 12)
+assert state.values.shape == cells
+heights = state.centres(dimension - 1)
+assert np.array_equal(state.values.reshape(cells[0], -1)[:, 0], (heights < 2.0).astype(float))
+velocity = results.field("velocity")
+assert velocity.unit == "m/s" and velocity.values.shape == cells + (dimension,)
+assert np.allclose(velocity.values[..., 0], velocity.centres(0))
+points = results.points(1.0)
+assert list(points["id"]) == [10, 20, 30] and list(points["pore pressure"]) == [1002.0, 2000.0, 3000.0]
+assert points["position"].shape == (3, 3) and np.isclose(points["position"][2, 2], 2.5)
+gauge = results.gauge("top")
+assert list(gauge["settlement"]) == [0.0, 0.1, 0.2] and gauge.units["pore pressure"] == "Pa"
+assert results.summary["status"] == "running" and results.summary["title"] == "a title"
+try:
+    results.field("nonsense")
+    raise SystemExit("a wrong name was accepted")
+except ResultsError as error:
+    assert "saturation" in str(error)
+
+for name in ("fields", "points"):
+    root = ElementTree.parse(folder / f"{name}.xdmf").getroot()
+    grids = root.findall("Domain/Grid/Grid")
+    assert [float(grid.find("Time").get("Value")) for grid in grids] == [0.0, 0.5, 1.0]
+    with h5py.File(folder / f"{name}.h5") as file:
+        for item in root.iter("DataItem"):
+            if item.get("Format") == "HDF":
+                data = file[item.text.split(":")[1]]
+                assert data.shape == tuple(int(n) for n in item.get("Dimensions").split()), item.text
+
+assert plot.main([str(folder)]) == 0
+assert plot.main([str(folder), "--field", "velocity", "--time", "0.5", "--out", str(folder / "one.png")]) == 0
+assert plot.main([str(folder), "--gauge", "top", "--out", str(folder / "two.png")]) == 0
+assert plot.main([str(folder), "--field", "nonsense"]) == 1
+assert picture.main([str(folder), str(folder / "three.png")]) == 0
+for file in ("plots/state.png", "plots/gauges.png", "one.png", "two.png", "three.png"):
+    assert (folder / file).read_bytes()[:8] == b"\x89PNG\r\n\x1a\n", file
