@@ -13,6 +13,7 @@
 /// that serves saving and loading alike, so a new quantity is added once. Names are unique in a
 /// checkpoint.
 ///
-/// Ghost values are not stored: after loading, the owner of each field restores them (halo exchange, walls)
-/// before anything reads them. Archives: CheckpointWriter (`loading` = false) and CheckpointReader
+/// Ghost values are not stored: after loading, the owner of each field restores them (halo
+/// exchange, walls) before anything reads them. Archives: CheckpointWriter (`loading` = false) and
+/// CheckpointReader
 /// (`loading` = true) in output/checkpoint.hpp.
