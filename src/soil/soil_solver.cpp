@@ -17,6 +17,8 @@
 namespace mudlark {
 namespace {
 
+/// Points may go this far between visits to their owners, in cells: the ghost layers hold no more.
+constexpr double longest_travel = 0.9;
 /// Faces lighter than this share of a full one carry no motion of their own.
 constexpr double lightest_face = 1e-12;
 /// Above this share of a cell's volume a face counts as inside the soil, below it as the soil's
@@ -100,10 +102,13 @@ bool SoilSolver<D>::two_phase() const {
 
 template <int D>
 void SoilSolver<D>::redistribute() {
-  for (auto& points : points_) {
-    removed_grain_mass_ += migrate(*grid_, points);
-    sort_by_cell(*grid_, points);
-  }
+  for (std::size_t b = 0; b < points_.size(); ++b) try {
+      removed_grain_mass_ += migrate(*grid_, points_[b]);
+      sort_by_cell(*grid_, points_[b]);
+    } catch (const DivergenceError& error) {  // on all ranks at once
+      throw DivergenceError(
+          fmt::format("soil {}: {}, t = {:.6g} s", options_.bodies[b].name, error.what(), time_));
+    }
   // The box of all soil, so that faces loaded from a neighbouring rank are inside too.
   std::array<int, 2 * D> extreme{}, widest{};
   extreme.fill(std::numeric_limits<int>::min() / 2);
@@ -126,17 +131,18 @@ void SoilSolver<D>::redistribute() {
   travelled_ = 0.0;
 }
 
+/// What bounds the step of one body, over all ranks: {-least porosity, -least stretch, largest
+/// speed squared}; the speed is negative without points.
 template <int D>
-double SoilSolver<D>::stable_step() const {
-  double fastest = 0.0;
+std::vector<std::array<double, 3>> SoilSolver<D>::step_bounds() const {
+  std::vector<std::array<double, 3>> mine(points_.size(), {-1.0, -1.0, -1.0}), all(mine);
   for (std::size_t b = 0; b < points_.size(); ++b) {
     const auto& points = points_[b];
-    const BodyConstants& body = constants_[b];
-    double least_porosity = 1.0, least_stretch = 1.0, speed2 = 0.0;
+    auto& [porosity, stretch, speed2] = mine[b];
     for (std::size_t p = 0; p < points.size(); ++p) {
-      least_porosity = std::min(
-          least_porosity, 1.0 - points.grain_mass[p] / (body.grain_density * points.volume[p]));
-      least_stretch = std::min(least_stretch, points.volume[p] / points.start_volume[p]);
+      porosity = std::max(
+          porosity, points.grain_mass[p] / (constants_[b].grain_density * points.volume[p]) - 1.0);
+      stretch = std::max(stretch, -points.volume[p] / points.start_volume[p]);
       double v2 = 0.0, w2 = 0.0;
       for (int a = 0; a < D; ++a) {
         v2 += points.velocity[a][p] * points.velocity[a][p];
@@ -144,17 +150,29 @@ double SoilSolver<D>::stable_step() const {
       }
       speed2 = std::max({speed2, v2, w2});
     }
-    if (points.size() == 0) continue;
+  }
+  MPI_Allreduce(mine.data(), all.data(), static_cast<int>(3 * mine.size()), MPI_DOUBLE, MPI_MAX,
+                grid_->comm());
+  return all;
+}
+
+template <int D>
+double SoilSolver<D>::stable_step() const {
+  double fastest = 0.0;
+  const auto bounds = step_bounds();
+  for (std::size_t b = 0; b < points_.size(); ++b) {
+    const BodyConstants& body = constants_[b];
+    const double least_stretch = -bounds[b][1], speed2 = bounds[b][2];
+    if (speed2 < 0.0) continue;
     // Tangent of a law linear in logarithmic strain, seen in the compressed state (Kirchhoff: (M -
     // tau)/J).
     const double modulus =
         laws_[b]->wave_modulus({}, {}) * (1.0 - std::log(least_stretch)) / least_stretch;
-    const double n = std::clamp(least_porosity, 0.01, 0.99);
+    const double n = std::clamp(-bounds[b][0], 0.01, 0.99);
     const double wave2 = fastest_wave_squared(modulus, n, body.grain_density, body.water_density,
                                               options_.water_bulk_modulus);
     fastest = std::max(fastest, std::sqrt(wave2) + std::sqrt(speed2));
   }
-  fastest = max_over_ranks(*grid_, fastest);
   double step = fastest > 0.0 ? options_.courant * grid_->smallest_spacing() / fastest
                               : std::numeric_limits<double>::max();
   if (options_.max_step) step = std::min(step, *options_.max_step);
@@ -172,7 +190,7 @@ void SoilSolver<D>::begin_step(double time, double length, const FluidLoad<D>* w
 
 template <int D>
 void SoilSolver<D>::advance(double dt) {
-  if (travelled_ > 0.9) {
+  if (travelled_ > longest_travel) {
     redistribute();
     surface_.resample(active_);
   }
@@ -193,10 +211,15 @@ void SoilSolver<D>::gather_nodes() {
     points_to_grid(*grid_, points_[b], constants_[b], options_.kernel, options_.transfer,
                    facets ? SurfacePressure<D>{} : surface, sums_);
   if (exchanges_halos()) halo_.add_to_owners(as_doubles<NodeSums, D>(sums_), node_sums);
-  fold_into_domain(*grid_, active_, options_.water_density, sums_);
+  fold_into_domain(*grid_, active_, sums_);
   if (facets) {
     for_each(active_, [&](const Index<D>& cell) { occupied_[cell] = 0.0; });
     for (const auto& points : points_) mark_occupied(*grid_, points, occupied_);
+    // Points that wandered into a neighbour's cell since redistribute() count there.
+    const std::array<double*, 1> counts{occupied_.data()};
+    if (exchanges_halos()) halo_.add_to_owners(counts);
+    for_each(active_,
+             [&](const Index<D>& cell) { occupied_[cell] = occupied_[cell] > 0.0 ? 1.0 : 0.0; });
     halo_.exchange(occupied_);
     add_facet_forces(*grid_, occupied_, surface, active_, sums_);
   }
@@ -205,15 +228,15 @@ void SoilSolver<D>::gather_nodes() {
 /// Momentum of both phases on a face, drag implicit: NUMERICS A1,
 /// [M_s + dt b, -dt b; -dt b, M_l + dt b] [v_s; v_f]' = [M_s v_s + dt F_s; M_l v_f + dt F_f].
 template <int D>
-void SoilSolver<D>::solve_face(const NodeSums& sums, double gravity, double dt, double face_volume,
+void SoilSolver<D>::solve_face(const NodeSums& sums, double dt, double face_volume,
                                NodeMotion& motion) const {
   motion = NodeMotion{};
   const double ms = sums.grain_mass, ml = sums.water_mass;
   if (sums.volume < lightest_face * face_volume) return;
   const double porosity =
       ml > 0.0 ? std::min(1.0, ml / (options_.water_density * sums.volume)) : 0.0;
-  const double water_force = porosity * sums.water_force + ml * gravity;
-  const double grain_force = sums.mixture_force - porosity * sums.water_force + ms * gravity;
+  const double water_force = porosity * sums.water_force;
+  const double grain_force = sums.mixture_force - water_force;
   const double grain_rhs = sums.grain_momentum + dt * grain_force;
   const double water_rhs = sums.water_momentum + dt * water_force;
   const bool locked = surface_.sealed() && sums.volume < rim_share * face_volume;
@@ -261,12 +284,12 @@ template <int D>
 void SoilSolver<D>::solve_nodes(double dt) {
   for (int d = 0; d < D; ++d) {
     const auto u = static_cast<std::size_t>(d);
-    const double gravity = grid_->gravity()[d], volume = grid_->cell_volume();
+    const double volume = grid_->cell_volume();
     const NodeSums* sums = sums_[u].data();
     NodeMotion* motion = motion_[u].data();
     for_each(solved_faces(d), [&](const Index<D>& face) {
       const std::ptrdiff_t at = grid_->offset(face);
-      solve_face(sums[at], gravity, dt, volume, motion[at]);
+      solve_face(sums[at], dt, volume, motion[at]);
     });
   }
   mirror_motion(*grid_, active_, motion_);
@@ -358,6 +381,7 @@ void SoilSolver<D>::report_bad_point(double largest_speed, std::size_t failed) c
 
 template <int D>
 void SoilSolver<D>::solid_fraction(CellField<D>& fraction, CellField<D>& resistance) {
+  if (travelled_ > longest_travel) redistribute();
   fraction.fill(0.0);
   resistance.fill(0.0);
   for (std::size_t b = 0; b < points_.size(); ++b) {

@@ -1,5 +1,6 @@
 #pragma once
 /// The soil: material points on the shared grid, under given loads of the free water.
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -77,10 +78,10 @@ class SoilSolver {
  private:
   IndexBox<D> solved_faces(int axis) const;
   bool exchanges_halos() const;
+  std::vector<std::array<double, 3>> step_bounds() const;
   void gather_nodes();
   void solve_nodes(double dt);
-  void solve_face(const NodeSums& sums, double gravity, double dt, double face_volume,
-                  NodeMotion& motion) const;
+  void solve_face(const NodeSums& sums, double dt, double face_volume, NodeMotion& motion) const;
   void update_points(double dt);
   void report_bad_point(double largest_speed, std::size_t failed) const;
 

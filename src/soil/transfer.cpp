@@ -60,7 +60,7 @@ Sample<D> sample(const Grid<D>& grid, const PointSplines<D, K>& splines, const V
 /// What one point gives to its nodes, apart from what depends on the component.
 template <int D>
 struct PointSource {
-  double grain_mass, water_mass, volume, drag, pore_pressure;
+  double grain_mass, water_mass, water_density, volume, drag, pore_pressure;
   SymTensor stress;
   Sample<D> traction, drained;
 };
@@ -95,9 +95,11 @@ void scatter_component(const Grid<D>& grid, const PointSplines<D, K>& splines,
   for (int j = 0; j < D; ++j)
     force[j] = -volume * (source.stress.template between<D>(d, j) +
                           (j == d ? traction - source.pore_pressure : 0.0));
-  const double body_force = -volume * source.traction.gradient[d];
+  const double gravity = grid.gravity()[d];
+  const double body_force =
+      (source.grain_mass + source.water_mass) * gravity - volume * source.traction.gradient[d];
   const double water_force = volume * (source.pore_pressure - source.drained.value);
-  const double water_body = -volume * source.drained.gradient[d];
+  const double water_body = volume * (source.water_density * gravity - source.drained.gradient[d]);
   AffineMomentum grains{v, {}}, water{vw, {}};
   if constexpr (affine) {
     const Vec<D> first = splines.template first_from_point<Component>(cells);
@@ -135,6 +137,7 @@ void scatter(const Grid<D>& grid, const SoilParticles<D>& points, const BodyCons
     PointSource<D> source;
     source.grain_mass = points.grain_mass[p];
     source.volume = points.volume[p];
+    source.water_density = body.water_density;
     source.stress = get_tensor(points.stress, p);
     source.traction = sample(grid, splines, per_spacing, surface.traction);
     source.water_mass = source.drag = source.pore_pressure = 0.0;

@@ -46,27 +46,24 @@ double parity(int component, int axis, Wall wall) {
 }  // namespace
 
 template <int D>
-void fold_into_domain(const Grid<D>& grid, const IndexBox<D>& box, double water_density,
-                      NodeField<NodeSums, D>& nodes) {
+void fold_into_domain(const Grid<D>& grid, const IndexBox<D>& box, NodeField<NodeSums, D>& nodes) {
   for_each_closed_wall(grid, [&](int axis, int side, Wall wall) {
     for (int d = 0; d < D; ++d) {
       auto& field = nodes[static_cast<std::size_t>(d)];
-      const double sign = parity(d, axis, wall), surplus = (1.0 - sign) * grid.gravity()[d];
-      for_each_mirror_pair(
-          grid, box, axis, side, d == axis, [&](const Index<D>& behind, const Index<D>& before) {
-            NodeSums& from = field[behind];
-            NodeSums& to = field[before];
-            to.grain_mass += from.grain_mass;
-            to.water_mass += from.water_mass;
-            to.volume += from.volume;
-            to.drag += from.drag;
-            to.grain_momentum += sign * from.grain_momentum;
-            to.water_momentum += sign * from.water_momentum;
-            to.mixture_force +=
-                sign * from.mixture_force - surplus * (from.grain_mass + from.water_mass);
-            to.water_force += sign * from.water_force;
-            if (from.water_mass > 0.0) to.water_force -= surplus * water_density * from.volume;
-          });
+      const double sign = parity(d, axis, wall);
+      for_each_mirror_pair(grid, box, axis, side, d == axis,
+                           [&](const Index<D>& behind, const Index<D>& before) {
+                             NodeSums& from = field[behind];
+                             NodeSums& to = field[before];
+                             to.grain_mass += from.grain_mass;
+                             to.water_mass += from.water_mass;
+                             to.volume += from.volume;
+                             to.drag += from.drag;
+                             to.grain_momentum += sign * from.grain_momentum;
+                             to.water_momentum += sign * from.water_momentum;
+                             to.mixture_force += sign * from.mixture_force;
+                             to.water_force += sign * from.water_force;
+                           });
     }
   });
 }
@@ -106,8 +103,8 @@ void fold_cells(const Grid<D>& grid, const IndexBox<D>& box, CellField<D>& field
   });
 }
 
-template void fold_into_domain(const Grid<2>&, const IndexBox<2>&, double, NodeField<NodeSums, 2>&);
-template void fold_into_domain(const Grid<3>&, const IndexBox<3>&, double, NodeField<NodeSums, 3>&);
+template void fold_into_domain(const Grid<2>&, const IndexBox<2>&, NodeField<NodeSums, 2>&);
+template void fold_into_domain(const Grid<3>&, const IndexBox<3>&, NodeField<NodeSums, 3>&);
 template void mirror_motion(const Grid<2>&, const IndexBox<2>&, NodeField<NodeMotion, 2>&);
 template void mirror_motion(const Grid<3>&, const IndexBox<3>&, NodeField<NodeMotion, 3>&);
 template void fold_cells(const Grid<2>&, const IndexBox<2>&, CellField<2>&);

@@ -7,13 +7,10 @@ namespace mudlark {
 /// Folds what points left behind closed walls back onto the nodes before them, as if every point
 /// had a mirror image: scalars add; the component along the wall's normal changes sign (odd),
 /// tangential ones keep it at slip walls (even) and change it at no-slip walls (odd). Layers behind
-/// open sides stay as they are. Gravity of the images is a force like any other and changes sign with
-/// them; since a node weighs all of its folded mass, the surplus is taken from its forces. Without
-/// that, soil at rest under its own weight would not rest on a wall. `water_density` [kg/m3]: of the
-/// pore water.
+/// open sides stay as they are. Weight is among the forces, so the images' weight changes sign with
+/// them: otherwise soil would not rest on a wall.
 template <int D>
-void fold_into_domain(const Grid<D>& grid, const IndexBox<D>& box, double water_density,
-                      NodeField<NodeSums, D>& nodes);
+void fold_into_domain(const Grid<D>& grid, const IndexBox<D>& box, NodeField<NodeSums, D>& nodes);
 
 /// Gives the nodes behind closed walls the mirrored motion, and the wall's own faces none along the
 /// normal.

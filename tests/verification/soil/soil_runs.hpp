@@ -2,6 +2,7 @@
 /// Small blocks and columns of soil that the verification tests run.
 #include <cmath>
 #include <map>
+#include <memory>
 #include <random>
 
 #include "soil/soil_solver.hpp"
