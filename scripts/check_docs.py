@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Fails when a page of the documentation points to nothing: relative links, their headings, pictures, and
-paths of this repository written as code (`scripts/test.sh`).
+paths of this repository written as code (`scripts/test.sh`); and when no page links to a page of docs/.
 
     check_docs.py                        links and paths
     check_docs.py --program MUDLARK      the case files on the pages, by `MUDLARK check`
@@ -64,6 +64,17 @@ def problems_of(page):
                     yield f"{place}: `{first}` does not exist"
 
 
+def unreachable(all_pages):
+    """Pages of docs/ that no page links to."""
+    linked = {ROOT / "docs/index.md"}
+    for page in all_pages:
+        for line in without_code_blocks(page.read_text()):
+            linked |= {(page.parent / target.split("#")[0]).resolve() for target in LINK.findall(line)}
+    for page in all_pages:
+        if ROOT / "docs" in page.parents and page not in linked:
+            yield f"{page.relative_to(ROOT)}: no page links here; add it to docs/index.md"
+
+
 def case_files(page):
     """Whole case files on a page: TOML blocks with [domain]; in tutorials a block without it continues the last."""
     last = ""
@@ -96,6 +107,7 @@ def main():
     else:
         subject = f"{len(all_pages)} pages"
         problems = [problem for page in all_pages for problem in problems_of(page)]
+        problems += unreachable(all_pages)
     for problem in problems:
         print(problem)
     print(f"check_docs: {subject}, {len(problems)} problems")
