@@ -9,6 +9,7 @@
 #include "grid/shape.hpp"
 #include "numerics/interface_advection.hpp"
 #include "numerics/loops.hpp"
+#include "stream.hpp"
 
 namespace mudlark {
 namespace {
@@ -45,12 +46,9 @@ void vof_sweep(benchmark::State& state) {
   InterfaceAdvection<D> advection(grid);
   std::int64_t step = 0;
   for (auto _ : state) advection.sweep(water, porosity, flux, 0.2 * h, step++);
-  const auto sweeps = static_cast<double>(state.iterations()) * D;
   const double cells_total = std::pow(cells, D);
-  state.counters["s_per_cell_sweep"] = benchmark::Counter(
-      sweeps * cells_total, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
   // Per cell and sweep at least: W read and written twice, theta, U, c, F, alpha written and read.
-  state.SetBytesProcessed(static_cast<std::int64_t>(sweeps * cells_total * 10 * sizeof(double)));
+  set_counters(state, cells_total * D, 10 * sizeof(double));
 }
 BENCHMARK(vof_sweep<2>)->Arg(128)->Arg(512)->Unit(benchmark::kMillisecond);
 BENCHMARK(vof_sweep<3>)->Arg(32)->Arg(64)->Unit(benchmark::kMillisecond);
