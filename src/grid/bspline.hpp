@@ -6,9 +6,10 @@
 namespace mudlark {
 
 /// Weights of a B-spline of the given degree (1, 2, 3) and their derivatives [1/cell] at one place.
-/// Node k of the axis sits at coordinate k; the first of the Degree + 1 nodes that matter is `first`.
-/// Cubic and quadratic satisfy N3'(r) = N2(r + 1/2) - N2(r - 1/2), which makes the divergence of a
-/// composite-spline velocity the interpolated staggered-grid divergence (NUMERICS C2).
+/// Node k of the axis sits at coordinate k; the first of the Degree + 1 nodes that matter is
+/// `first`. Cubic and quadratic satisfy N3'(r) = N2(r + 1/2) - N2(r - 1/2), which makes the
+/// divergence of a composite-spline velocity the interpolated staggered-grid divergence (NUMERICS
+/// C2).
 template <int Degree>
 struct BSpline {
   static_assert(Degree >= 1 && Degree <= 3);
@@ -29,8 +30,8 @@ struct BSpline {
     } else {
       first = static_cast<int>(std::floor(coordinate)) - 1;
       const double r = coordinate - first - 1.0, s = 1.0 - r;
-      weight = {s * s * s / 6.0, 2.0 / 3.0 - r * r * (1.0 - 0.5 * r), 2.0 / 3.0 - s * s * (1.0 - 0.5 * s),
-                r * r * r / 6.0};
+      weight = {s * s * s / 6.0, 2.0 / 3.0 - r * r * (1.0 - 0.5 * r),
+                2.0 / 3.0 - s * s * (1.0 - 0.5 * s), r * r * r / 6.0};
       slope = {-0.5 * s * s, r * (1.5 * r - 2.0), s * (2.0 - 1.5 * s), 0.5 * r * r};
     }
   }
