@@ -45,7 +45,7 @@ class Projection {
   double density_;
   Ghosts<D> ghosts_;
   CellField<D> unknown_;
-  FaceVector<D> distance_;  ///< in cells; 0: no pressure acts on the face
+  FaceVector<D> distance_;     ///< in cells; 0: no pressure acts on the face
   CellField<D> rise_, risen_;  ///< of the pressure in this pass, and in all of this projection [Pa]
   PressureSystem<D> system_;
   PressureSolver<D> solver_;
