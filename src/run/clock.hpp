@@ -35,16 +35,20 @@ class Clock {
                        [&](double t) { return t == time_; });
   }
 
-  /// Next time at which something is due [s].
+  /// Next time at which something is due [s]. Times as the user wrote them are met exactly;
+  /// multiples of a period that mean the same (3 * 0.3 is not 0.9 in floating point) make no step
+  /// of their own.
   double next_event() const {
     double next = options_.end;
+    for (const double t : options_.output_at)
+      if (t > time_) next = std::min(next, t);
+    const double written = next;
     for (const double period : periods_) {
       const double count = time_ / period;
       const double passed = std::floor(count + 1e-9 * std::max(1.0, count));
-      next = std::min(next, (passed + 1.0) * period);
+      const double multiple = (passed + 1.0) * period;
+      if (multiple < written - 1e-9 * period) next = std::min(next, multiple);
     }
-    for (const double t : options_.output_at)
-      if (t > time_) next = std::min(next, t);
     return next;
   }
   /// Step no longer than `stable`, so that equal steps reach the next event exactly [s].

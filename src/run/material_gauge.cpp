@@ -58,7 +58,9 @@ std::vector<double> read_material(const Grid<D>& grid, const SoilSolver<D>& soil
       std::array<double, basis> term{1.0};
       double weight = 1.0;
       for (int a = 0; a < D && weight > 0.0; ++a) {
-        const double distance = (points.start[a][p] - at[a]) / grid.spacing()[a];
+        double distance = (points.start[a][p] - at[a]) / grid.spacing()[a];
+        if (grid.periodic(a))  // the start of a point that crossed the seam lies one length away
+          distance -= grid.cells()[a] * std::round(distance / grid.cells()[a]);
         term[static_cast<std::size_t>(a + 1)] = distance;
         weight *= std::max(0.0, 1.0 - std::abs(distance) / 1.5);
       }

@@ -42,7 +42,7 @@ void points_to_grid(const Grid<D>& grid, const SoilParticles<D>& points, const B
 struct PointMotion {
   std::vector<double> gradient;         ///< dt * dv_i/dx_j [-], D*D per point, row i
   std::vector<double> flux_divergence;  ///< divergence of v_s + n (v_f - v_s) [1/s]
-  double largest_speed = 0.0;  ///< of grains or pore water [m/s]; infinite when not a number
+  double largest_speed = 0.0;           ///< of the grains [m/s]; infinite when not a number
 };
 
 /// Moves the points with the grid and updates their velocities:

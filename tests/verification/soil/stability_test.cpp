@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include "base/errors.hpp"
-#include "materials/linear_elastic.hpp"
 #include "verification/soil/soil_runs.hpp"
 
 namespace mudlark {
@@ -51,16 +50,53 @@ double energy_growth(Kernel kernel, bool wet, double courant, double permeabilit
   return largest;
 }
 
+/// Largest share of the nominal step at which the kernel is stable, measured: composite splines
+/// reach 1, the others less, since their narrower stencils see shorter waves.
+double share_of(Kernel kernel) {
+  return kernel == Kernel::composite ? 0.95 : kernel == Kernel::quadratic ? 0.8 : 0.65;
+}
+
 TEST(StableStep, KeepsTheEnergyOfANoisyColumnForEveryKernel) {
   for (const Kernel kernel : every_kernel)
     for (const bool wet : {false, true})
-      EXPECT_LT(energy_growth(kernel, wet, 0.9, 1e-10, 2000), 1.1)
+      EXPECT_LT(energy_growth(kernel, wet, share_of(kernel), 1e-10, 2000), 1.1)
           << "kernel " << static_cast<int>(kernel) << (wet ? " saturated" : " dry");
 }
 
 TEST(StableStep, HoldsWhereDragIsNearlyAbsent) {
   for (const Kernel kernel : every_kernel)
-    EXPECT_LT(energy_growth(kernel, true, 0.9, 1e-4, 2000), 1.1) << static_cast<int>(kernel);
+    EXPECT_LT(energy_growth(kernel, true, share_of(kernel), 1e-4, 2000), 1.1)
+        << static_cast<int>(kernel);
+}
+
+/// Noise of a block that flies through the grid, over the noise at its start. (Linear splines fail
+/// here: a node that the block's edge barely touches has a stiffness but hardly a mass.)
+double noise_in_flight(Kernel kernel, Transfer transfer, bool wet) {
+  const Grid<2> grid = make_grid<2>({12, 12, 1}, 0.1, "pppp");
+  SoilOptions options = make_soil(2, {0.3, -1, 0.3}, {0.7, 1, 0.7}, wet);
+  options.kernel = kernel;
+  options.transfer = transfer;
+  SoilSolver<2> soil(grid, options);
+  soil.initialise();
+  const double size = 1e-9;
+  set_velocity(soil, [&](int axis, const Vec<2>&, std::int64_t id) {
+    return (axis == 0 ? 1.4 : -2.0) + size * noise(id, axis);
+  });
+  double time = 0.0, largest = 0.0;
+  for (int i = 0; i < 16; ++i) {
+    run(soil, time, 50, soil.stable_step());
+    for (const double v : soil.points(0).velocity[0])
+      largest = std::max(largest, std::abs(v - 1.4) / size);
+  }
+  return largest;
+}
+
+TEST(StableStep, LetsTheEdgesOfABlockPassFacesAtTheDefaultCourantNumber) {
+  for (const Kernel kernel : {Kernel::quadratic, Kernel::composite})
+    for (const Transfer transfer : {Transfer::flip, Transfer::apic})
+      for (const bool wet : {false, true})
+        EXPECT_LT(noise_in_flight(kernel, transfer, wet), 30.0)
+            << static_cast<int>(kernel) << static_cast<int>(transfer) << wet;
 }
 
 TEST(StableStep, OfMinuteLengthIsNotNeededForAnyPermeability) {
@@ -140,8 +176,8 @@ double settlement_at_rest(Kernel kernel, Transfer transfer, bool wet, double* pr
   for (std::size_t p = 0; p < points.size(); ++p) {
     worst = std::max(worst, std::abs(points.position[1][p] - points.start[1][p]));
     const double exact = 9810.0 * (1.0 - points.position[1][p]);
-    if (wet)
-      *pressure_error = std::max(*pressure_error, std::abs(points.pore_pressure[p] - exact) / 9810);
+    if (!wet) continue;
+    *pressure_error = std::max(*pressure_error, std::abs(points.pore_pressure[p] - exact) / 9810);
   }
   return worst / elastic;
 }
