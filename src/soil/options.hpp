@@ -55,8 +55,8 @@ struct SoilOptions {
   double water_bulk_modulus = 2.15e9;  ///< [Pa]
   Kernel kernel = Kernel::composite;
   Transfer transfer = Transfer::flip;
-  double flip_fraction = 0.99;     ///< share of FLIP in the velocity update [-], the rest is PIC
-  double damping = 0.0;            ///< local non-viscous damping coefficient [-] (Cundall)
+  double flip_fraction = 0.99;  ///< share of FLIP in the velocity update [-], the rest is PIC
+  double damping = 0.0;         ///< local non-viscous damping coefficient [-] (Cundall)
   /// Share of the step in which the fastest wave crosses a cell [-]. Measured limits in 1D to 3D:
   /// 1.0 (composite), 0.8 (quadratic), 0.7 (linear; soil whose edges pass nodes is not stable at
   /// any).

@@ -1,5 +1,5 @@
 // ranks: 1 3 4
-// The same soil on one rank and on all of them, and in the plane and in space.
+// The same soil on one rank and on all of them, and in the plane and in space; errors on all ranks.
 #include <gtest/gtest.h>
 
 #include "base/errors.hpp"
@@ -226,6 +226,34 @@ TEST(PlaneStrain, EqualsASliceInSpaceBetweenSlipWallsOrPeriodicOnes) {
   expect_plane_equals_space("snno", "snssno", 3, Transfer::apic);
   expect_plane_equals_space("ppso", "ppppso", 3, Transfer::flip);
   expect_plane_equals_space("ssso", "ssssso", 1, Transfer::flip);
+}
+
+template <int D>
+std::string divergence_of(double courant, bool wet) {
+  const Grid<D> grid = make_grid<D>({6, D == 2 ? 12 : 6, 12}, 0.1, "ssssso", 9.81, MPI_COMM_WORLD);
+  SoilOptions options = make_soil(D, {-1, -1, -1}, {9, 9, 0.8}, wet);
+  options.courant = courant;
+  SoilSolver<D> soil(grid, options);
+  soil.initialise();
+  double time = 0.0;
+  try {
+    for (int i = 0; i < 100; ++i) run(soil, time, 20, soil.stable_step());
+  } catch (const DivergenceError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(OverlongStep, EndsInAnErrorThatNamesPlaceAndTime) {
+  for (const bool wet : {false, true})
+    for (const std::string& text : {divergence_of<2>(3.0, wet), divergence_of<3>(4.0, wet)}) {
+      ASSERT_FALSE(text.empty()) << "nothing noticed";
+      EXPECT_NE(text.find(" at ("), std::string::npos) << text;
+      EXPECT_NE(text.find("t = "), std::string::npos) << text;
+      EXPECT_NE(text.find("soil block"), std::string::npos) << text;
+      RecordProperty("text", text);
+    }
+  EXPECT_EQ(divergence_of<2>(0.5, true), "");
 }
 
 }  // namespace
