@@ -2,7 +2,6 @@
 /// `reduction`.
 #include <benchmark/benchmark.h>
 #include <mpi.h>
-#include <petscsys.h>
 
 #include <cmath>
 
@@ -59,12 +58,3 @@ BENCHMARK(pressure_solve<3>)->Arg(32)->Arg(64)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace mudlark
-
-int main(int argc, char** argv) {
-  MPI_Init(&argc, &argv);
-  if (PetscInitializeNoArguments()) return 3;
-  benchmark::Initialize(&argc, argv);
-  benchmark::RunSpecifiedBenchmarks();
-  PetscFinalize();
-  MPI_Finalize();
-}

@@ -1,6 +1,5 @@
 /// Cost of the soil engine per point: transfers, stress update, whole step; two-phase elastic soil.
 #include <mpi.h>
-#include <petscsys.h>
 
 #include <cmath>
 
@@ -138,13 +137,3 @@ BENCHMARK((whole_step<3, Kernel::quadratic, Transfer::apic>))
 
 }  // namespace
 }  // namespace mudlark
-
-int main(int argc, char** argv) {
-  MPI_Init(&argc, &argv);
-  if (PetscInitializeNoArguments()) return 3;
-  benchmark::Initialize(&argc, argv);
-  benchmark::RunSpecifiedBenchmarks();
-  PetscFinalize();
-  MPI_Finalize();
-  return 0;
-}

@@ -2,7 +2,6 @@
 /// flow.
 #include <benchmark/benchmark.h>
 #include <mpi.h>
-#include <petscsys.h>
 
 #include <cmath>
 
@@ -55,12 +54,3 @@ BENCHMARK(vof_sweep<3>)->Arg(32)->Arg(64)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace mudlark
-
-int main(int argc, char** argv) {
-  MPI_Init(&argc, &argv);
-  if (PetscInitializeNoArguments()) return 3;
-  benchmark::Initialize(&argc, argv);
-  benchmark::RunSpecifiedBenchmarks();
-  PetscFinalize();
-  MPI_Finalize();
-}
