@@ -20,6 +20,21 @@ double end_of_water(const Grid<D>& grid, const CellField<D>& saturation, const I
   return grid.lower()[axis] + (cell[axis] + here + std::max(beyond, 0.0)) * grid.spacing()[axis];
 }
 
+/// Largest of the ranks' values; `position` becomes the centre of its cell, given by the place
+/// `where` in the local arrays of the rank that holds it. Collective.
+template <int D>
+double largest_over_ranks(const Grid<D>& grid, double value, std::ptrdiff_t where,
+                          Vec<D>& position) {
+  struct {
+    double value;
+    int rank;
+  } mine{value, grid.rank()}, best{};
+  MPI_Allreduce(&mine, &best, 1, MPI_DOUBLE_INT, MPI_MAXLOC, grid.comm());
+  position = place_of(grid, where);
+  MPI_Bcast(position.component.data(), D, MPI_DOUBLE, best.rank, grid.comm());
+  return best.value;
+}
+
 }  // namespace
 
 template <int D>
@@ -51,6 +66,20 @@ std::string place_text(const Vec<D>& position) {
   if constexpr (D == 2) return fmt::format("(x, z) = ({:.6g}, {:.6g}) m", position[0], position[1]);
   return fmt::format("(x, y, z) = ({:.6g}, {:.6g}, {:.6g}) m", position[0], position[1],
                      position[D - 1]);
+}
+
+template <int D>
+Vec<D> place_of_largest(const Grid<D>& grid, const CellField<D>& field) {
+  double largest = -1.0;
+  std::ptrdiff_t where = grid.offset(grid.owned().lower);
+  const double* values = field.data();
+  for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) {
+    const double size = std::isfinite(values[at]) ? std::abs(values[at]) : HUGE_VAL;
+    if (size > largest) largest = size, where = at;
+  });
+  Vec<D> position;
+  largest_over_ranks(grid, largest, where, position);
+  return position;
 }
 
 template <int D>
@@ -95,14 +124,7 @@ double fastest_water(const Grid<D>& grid, const CellField<D>& water, const FaceV
       if (speed > fastest) fastest = speed, where = at;
     });
   }
-  struct {
-    double speed;
-    int rank;
-  } mine{fastest, grid.rank()}, best{};
-  MPI_Allreduce(&mine, &best, 1, MPI_DOUBLE_INT, MPI_MAXLOC, grid.comm());
-  position = place_of(grid, where);
-  MPI_Bcast(position.component.data(), D, MPI_DOUBLE, best.rank, grid.comm());
-  return best.speed;
+  return largest_over_ranks(grid, fastest, where, position);
 }
 
 template <int D>
@@ -167,6 +189,8 @@ template Vec<2> place_of(const Grid<2>&, std::ptrdiff_t);
 template Vec<3> place_of(const Grid<3>&, std::ptrdiff_t);
 template std::string place_text(const Vec<2>&);
 template std::string place_text(const Vec<3>&);
+template Vec<2> place_of_largest(const Grid<2>&, const CellField<2>&);
+template Vec<3> place_of_largest(const Grid<3>&, const CellField<3>&);
 template std::string not_finite(const Grid<2>&, const IndexBox<2>&, const double*, const char*);
 template std::string not_finite(const Grid<3>&, const IndexBox<3>&, const double*, const char*);
 template double kinetic_energy(const Grid<2>&, const CellField<2>&, const FaceVector<2>&, double);

@@ -19,6 +19,9 @@ template <int D>
 Vec<D> place_of(const Grid<D>& grid, std::ptrdiff_t at);
 template <int D>
 std::string place_text(const Vec<D>& position);
+/// Centre of the cell whose value is largest in size, or not finite, over all ranks. Collective.
+template <int D>
+Vec<D> place_of_largest(const Grid<D>& grid, const CellField<D>& field);
 /// Empty, or a sentence that names the first place where a value is not finite.
 template <int D>
 std::string not_finite(const Grid<D>& grid, const IndexBox<D>& box, const double* values,

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/errors.hpp"
+#include "flow/flow_checks.hpp"
 #include "numerics/loops.hpp"
 
 namespace mudlark {
@@ -200,8 +201,9 @@ SolveReport Projection<D>::project(const CellField<D>& porosity, const FaceVecto
   if (!report.converged)
     throw DivergenceError(
         fmt::format("The water's pressure could not be found: after {} iterations the largest "
-                    "divergence left is {:.3g} 1/s (allowed {:.3g}).",
-                    report.iterations, report.residual, tolerance));
+                    "divergence left is {:.3g} 1/s at {} (allowed {:.3g}).",
+                    report.iterations, report.residual,
+                    place_text(place_of_largest(grid, system_.right_side)), tolerance));
   if (system_.constant_free) fix_constant(pressure);
   return report;
 }

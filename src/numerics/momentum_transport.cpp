@@ -8,12 +8,29 @@
 namespace mudlark {
 namespace {
 
-/// Below this share of water a face's momentum is carried at first order and kept inside its
-/// neighbours' range: such spray has mass in one sweep and none in the next.
+/// Below this share of water a donor gives at first order, and a face takes the mixture of what it
+/// held and what came in: such spray has mass in one sweep and none in the next.
 constexpr double thin = 0.01;
-/// Below this volume per cell the quotient of momentum and mass is round-off; the face keeps its
-/// velocity, or viscosity and slopes would spread the noise.
+/// Water of less volume per cell than this is round-off: it changes nothing on its face.
 constexpr double dust = 1e-8;
+
+/// New velocity of a face from the momentum per volume that it exchanged. With enough water `left`
+/// it is the quotient of momentum and mass. Thin spray takes the mixture of what it held (`before`)
+/// and what came in, as if the water that left had been mixed too: the same quotient where nothing
+/// left, else one that stays within its neighbours' range. The two blend: a switch, or a range that
+/// counts a donor as soon as anything comes from it, would turn round-off of the water (1e-24 in
+/// place of 0) into another velocity.
+struct Exchange {
+  double change = 0.0;   ///< momentum lost relative to the face's own velocity [m/s]
+  double gained = 0.0;   ///< of it, what came in [m/s]
+  double came_in = 0.0;  ///< water that came in [-]
+
+  double new_velocity(double velocity, double before, double left, double room) const {
+    const double mixture = velocity + gained / std::max(before + came_in, dust);
+    const double solid = std::clamp(2.0 * left / (thin * room) - 1.0, 0.0, 1.0);
+    return solid > 0.0 ? mixture + solid * (velocity - change / left - mixture) : mixture;
+  }
+};
 
 double limited_slope(double behind, double ahead) {
   const double product = behind * ahead;
@@ -44,7 +61,7 @@ void MomentumTransport<D>::advance_component(int component, const double* old_wa
   for_each_offset(grid, inner_faces(grid, component), [&](std::ptrdiff_t at) {
     const double v = velocity[at];
     const double room = 0.5 * (porosity[at - sa] + porosity[at]);
-    double change = 0.0, lowest = v, highest = v;
+    Exchange exchange;
     for (int axis = 0; axis < D; ++axis) {
       const double* flux = water_flux[axis].data();
       const std::ptrdiff_t s = grid.stride(axis);
@@ -63,14 +80,13 @@ void MomentumTransport<D>::advance_component(int component, const double* old_wa
               0.5 * (1.0 - share) *
               limited_slope(carried - velocity[donor - step], velocity[donor + step] - carried);
         }
-        change += (side == 0 ? -through : through) * (carried - v);
-        if (donor != at) lowest = std::min(lowest, carried), highest = std::max(highest, carried);
+        const double momentum = std::abs(through) * (carried - v);
+        exchange.change += donor == at ? momentum : -momentum;
+        if (donor != at) exchange.gained += momentum, exchange.came_in += std::abs(through);
       }
     }
     const double left = 0.5 * (new_water[at - sa] + new_water[at]);
-    double result = left > dust ? v - change / left : v;
-    if (left < thin * room) result = std::clamp(result, lowest, highest);
-    moved[at] = result;
+    moved[at] = exchange.new_velocity(v, mass(at), left, room);
   });
 }
 

@@ -124,5 +124,19 @@ TEST(DamBreak, ATooLargeStepIsRefusedWithTheReason) {
   }
 }
 
+TEST(DamBreak, APressureThatIsNotFoundIsReportedWithItsPlace) {
+  FlowOptions options = column_and_mound<2>();
+  options.pressure_tolerance = 1e-25;  // far below round-off
+  FlowRun<2> run(tank<2>(8), options);
+  try {
+    for (int step = 0; step < 5; ++step) run.step(run.flow.stable_step(run.medium));
+    FAIL() << "the pressure was taken as found";
+  } catch (const DivergenceError& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("pressure could not be found"), std::string::npos) << text;
+    EXPECT_NE(text.find(" at (x, z) = ("), std::string::npos) << text;
+  }
+}
+
 }  // namespace
 }  // namespace mudlark
