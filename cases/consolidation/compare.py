@@ -20,7 +20,10 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "python"))
+PACKAGE = Path(__file__).resolve().parents[2] / "python"
+if not (PACKAGE / "mudlark").is_dir():
+    sys.exit("compare.py needs Mudlark's Python package: run it where it lies, in cases/ of Mudlark's source tree.")
+sys.path.insert(0, str(PACKAGE))
 from mudlark.reference.consolidation import LargeStrainColumn, Terzaghi, constrained_modulus, final_settlement
 from mudlark.results import Results
 

@@ -14,6 +14,8 @@ from pathlib import Path
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
+if not (ROOT / "python/mudlark").is_dir():
+    sys.exit("compare.py needs Mudlark's Python package: run it where it lies, in cases/ of Mudlark's source tree.")
 sys.path.insert(0, str(ROOT / "python"))
 
 import matplotlib  # noqa: E402
