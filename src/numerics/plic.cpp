@@ -8,6 +8,10 @@ namespace mudlark {
 namespace {
 
 constexpr double smallest = 1e-30;
+/// Lead of the centred normal's largest component over which Youngs' normal takes over. On a nearly
+/// flat surface beside a wall the two leads are equal in 3D although the normals differ: a switch
+/// would leave the choice to round-off.
+constexpr double blend = 1e-3;
 
 /// Components of the normal made positive, sorted upwards and scaled to sum 1; unused ones are
 /// zero.
@@ -191,7 +195,9 @@ Vec<D> interface_normal(const double* alpha, const std::ptrdiff_t* stride) {
                 layer_sum<D>(alpha + stride[a], stride, a, 2.0);
   scale_to_unit_sum(youngs);
   const double youngs_size = largest_component(youngs);
-  return youngs_size > smallest && youngs_size < best_size ? youngs : best;
+  if (youngs_size <= smallest) return best;
+  const double share = std::clamp((best_size - youngs_size) / blend, 0.0, 1.0);
+  return best + share * (youngs - best);
 }
 
 template double volume_below<2>(const Plane<2>&);

@@ -1,4 +1,4 @@
-// ranks: 4
+// ranks: 2 3 4
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -37,18 +37,11 @@ void same_on_any_ranks(const FlowOptions& options, int steps) {
 
 TEST(DamBreak, IsTheSameOnAnyNumberOfRanksIn2D) { same_on_any_ranks<2>(column_and_mound<2>(), 60); }
 
-/// In 3D the carried momentum of the thinnest spray amplifies round-off by many orders after some
-/// ten steps (a known shortfall, see the method page), so the full scheme is compared before that,
-/// and the rest of it over a longer run without advection.
-TEST(DamBreak, IsTheSameOnAnyNumberOfRanksIn3DUntilTheFirstSpray) {
+/// 30 steps go through the first spray at the mound. The pressure is solved further than usual:
+/// what two solves leave within their tolerance differs, and the strict bound is on the scheme.
+TEST(DamBreak, IsTheSameOnAnyNumberOfRanksIn3D) {
   FlowOptions options = column_and_mound<3>();
   options.pressure_tolerance = 1e-14;
-  same_on_any_ranks<3>(options, 6);
-}
-TEST(DamBreak, IsTheSameOnAnyNumberOfRanksIn3DWithoutAdvection) {
-  FlowOptions options = column_and_mound<3>();
-  options.pressure_tolerance = 1e-14;
-  options.advection = false;
   same_on_any_ranks<3>(options, 30);
 }
 
