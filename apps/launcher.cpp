@@ -57,13 +57,15 @@ class ExitCodeFile {
 };
 
 /// Open MPI refuses root and more ranks than cores unless told; both are the user's own choice
-/// here.
+/// here. It would also tie the ranks of every run to the same first cores, where two runs at a time
+/// wait for each other.
 void set_environment(const std::string& exit_code_file) {
-  const std::array<std::pair<const char*, const char*>, 5> settings{{
+  const std::array<std::pair<const char*, const char*>, 6> settings{{
       {"OMPI_ALLOW_RUN_AS_ROOT", "1"},
       {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"},
       {"OMPI_MCA_rmaps_base_oversubscribe", "1"},
       {"OMPI_MCA_mpi_yield_when_idle", "1"},
+      {"OMPI_MCA_hwloc_base_binding_policy", "none"},
       {exit_code_variable, exit_code_file.c_str()},
   }};
   for (const auto& [name, value] : settings) setenv(name, value, 1);

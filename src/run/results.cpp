@@ -4,6 +4,7 @@
 
 #include "base/version.hpp"
 #include "output/checkpoint.hpp"
+#include "run/continuation.hpp"
 #include "run/gauges.hpp"
 #include "run/ledger.hpp"
 
@@ -129,8 +130,9 @@ template <int D>
 void Results<D>::write_checkpoint(World<D>& world) {
   const double begin = MPI_Wtime();
   for (GaugeWriter& gauge : gauges_) gauge.flush();
-  CheckpointWriter<D> archive(world.grid(), folder_ / "checkpoint", world.options().resolved_toml,
-                              world.clock().step(), world.clock().time());
+  CheckpointWriter<D> archive(world.grid(), folder_ / "checkpoint",
+                              lasting_part(world.options().resolved_toml), world.clock().step(),
+                              world.clock().time());
   world.archive(archive);
   archive.commit();
   world.effort().output += MPI_Wtime() - begin;

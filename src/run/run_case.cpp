@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "output/checkpoint.hpp"
+#include "run/continuation.hpp"
 #include "run/time_loop.hpp"
 
 namespace mudlark {
@@ -16,7 +17,7 @@ ExitCode run_in(const CaseOptions& options, const RunSettings& settings) {
   if (settings.resume) {
     const bool first = world.grid().rank() == 0;
     CheckpointReader<D> archive(world.grid(), settings.results / "checkpoint",
-                                options.resolved_toml, [&](const std::string& note) {
+                                lasting_part(options.resolved_toml), [&](const std::string& note) {
                                   if (first) fmt::print(stderr, "{}\n", note);
                                 });
     world.archive(archive);

@@ -112,6 +112,8 @@ void World<D>::advance_soil(double dt) {
     effort_.largest_soil_step = std::max(effort_.largest_soil_step, sub);
     effort_.smallest_soil_step =
         effort_.smallest_soil_step > 0.0 ? std::min(effort_.smallest_soil_step, sub) : sub;
+    // Sums over points depend on their order to the last bit: it is that of a state just loaded.
+    if (coupling_) soil_->redistribute();
   }
   const Stopwatch watch(effort_.mapping);
   if (!coupling_) return;

@@ -9,6 +9,7 @@
 #include "base/errors.hpp"
 #include "materials/registry.hpp"
 #include "parallel/collective_error.hpp"
+#include "soil/exact_sum.hpp"
 #include "soil/kinematics.hpp"
 #include "soil/redistribute.hpp"
 #include "soil/seeding.hpp"
@@ -414,13 +415,15 @@ void SoilSolver<D>::set_pore_pressure(const CellField<D>& pressure) {
 template <int D>
 typename SoilSolver<D>::Totals SoilSolver<D>::totals() const {
   std::array<double, 5 + D> mine{};
+  double total_grain_mass = 0.0;
   for (std::size_t b = 0; b < points_.size(); ++b) {
     const auto& points = points_[b];
     const BodyConstants& body = constants_[b];
+    ExactSum grain_mass(body.grain_density * grid_->cell_volume());
     for (std::size_t p = 0; p < points.size(); ++p) {
       const double grains = points.grain_mass[p];
       const double water = (points.volume[p] - grains / body.grain_density) * body.water_density;
-      mine[0] += grains;
+      grain_mass.add(grains);
       mine[1] += water;
       for (int a = 0; a < D; ++a) {
         const double v = points.velocity[a][p], vw = points.water_velocity[a][p];
@@ -429,11 +432,12 @@ typename SoilSolver<D>::Totals SoilSolver<D>::totals() const {
       }
     }
     mine[4] += static_cast<double>(points.size());
+    total_grain_mass += grain_mass.over_ranks(grid_->comm());
   }
   mine[3] = removed_grain_mass_;
   std::array<double, 5 + D> all{};
   MPI_Allreduce(mine.data(), all.data(), 5 + D, MPI_DOUBLE, MPI_SUM, grid_->comm());
-  Totals totals{all[0], all[1], all[2], {}, all[3], static_cast<long long>(all[4])};
+  Totals totals{total_grain_mass, all[1], all[2], {}, all[3], static_cast<long long>(all[4])};
   for (int a = 0; a < D; ++a) totals.momentum[a] = all[static_cast<std::size_t>(5 + a)];
   return totals;
 }

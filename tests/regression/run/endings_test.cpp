@@ -1,0 +1,77 @@
+/// How runs end: exit codes, what the summary says, going on with other settings, conservation.
+#include "regression/run/runs.hpp"
+
+namespace mudlark {
+namespace {
+
+using Endings = RunTest;
+using Ledgers = RunTest;
+
+TEST_F(Endings, ADivergedRunReturns2AndGoesOnWithASmallerStep) {
+  const Result diverged = run("flow_3d", 1, "out", {"--set", "time.step=0.05"});
+  EXPECT_EQ(diverged.code, 2) << diverged.output;
+  EXPECT_EQ(status_of(results("out")), "\"diverged\"");
+  EXPECT_NE(diverged.output.find("too large"), std::string::npos) << diverged.output;
+  EXPECT_NE(diverged.output.find("The last good state is in"), std::string::npos);
+  const Result smaller = run("flow_3d", 2, "out", {"--resume", "--set", "time.step=0.004"});
+  EXPECT_EQ(smaller.code, 0) << smaller.output;
+  EXPECT_EQ(status_of(results("out")), "\"done\"");
+  EXPECT_EQ(entry_of(results("out"), "time [s]"), "0.3");
+}
+
+TEST_F(Endings, ADivergedRunOnTwoRanksReturns2) {
+  EXPECT_EQ(run("flow_3d", 2, "out", {"--set", "time.step=0.05"}).code, 2);
+  EXPECT_EQ(status_of(results("out")), "\"diverged\"");
+}
+
+TEST_F(Endings, AFinishedRunGoesOnToALaterEnd) {
+  ASSERT_EQ(run("soil_3d", 1, "out", {"--until", "0.02"}).code, 0);
+  EXPECT_EQ(entry_of(results("out"), "time [s]"), "0.02");
+  ASSERT_EQ(run("soil_3d", 1, "out", {"--resume", "--until", "0.04"}).code, 0);
+  EXPECT_EQ(entry_of(results("out"), "time [s]"), "0.04");
+  const Result last = run("soil_3d", 1, "out",
+                          {"--resume", "--set", "time.end=0.06", "soil_solver.courant=0.3",
+                           "time.output_every=0.01", "gauge.3.every=0.001"});
+  ASSERT_EQ(last.code, 0) << last.output;
+  EXPECT_EQ(entry_of(results("out"), "time [s]"), "0.06");
+  const Series corner = series_of(results("out") / "gauges/corner.csv");
+  EXPECT_EQ(corner.rows.size(), 31u);
+  EXPECT_EQ(corner.rows.back().front(), 0.06);
+}
+
+TEST_F(Endings, AStateOfAnotherSoilIsRefused) {
+  ASSERT_EQ(run("soil_3d", 1, "out", {"--until", "0.01"}).code, 0);
+  const Result other = run("soil_3d", 1, "out", {"--resume", "--set", "soil.0.porosity=0.35"});
+  EXPECT_EQ(other.code, 1) << other.output;
+  EXPECT_NE(other.output.find("belong to another case"), std::string::npos) << other.output;
+}
+
+double error_of(const fs::path& results, const std::string& what) {
+  const std::string text = entry_of(results, what);
+  return text.empty() || text == "null" ? HUGE_VAL : std::stod(text);
+}
+
+TEST_F(Ledgers, KeepWaterAndMomentumOfAPeriodicBoxOfWater) {
+  ASSERT_EQ(run("vortex", 1, "out").code, 0);
+  EXPECT_LE(error_of(results("out"), "water"), 1e-12);
+  EXPECT_LE(error_of(results("out"), "momentum"), 1e-9);
+}
+
+TEST_F(Ledgers, KeepGrainsAndMomentumOfBlocksThatCollide) {
+  for (const std::string transfer : {"flip", "apic"}) {
+    ASSERT_EQ(run("collision", 2, transfer, {"--set", "soil_solver.transfer=" + transfer}).code, 0);
+    EXPECT_EQ(error_of(results(transfer), "grains"), 0.0);
+    EXPECT_LE(error_of(results(transfer), "momentum"), 1e-9);
+    const Series hit = series_of(results(transfer) / "gauges/target.csv");
+    EXPECT_GT(hit.rows.back()[1], 0.05) << "the target was not hit";
+  }
+}
+
+TEST_F(Ledgers, KeepWaterAndGrainsOfACoupledRun) {
+  ASSERT_EQ(run("dam_on_bed_2d", 1, "out").code, 0);
+  EXPECT_LE(error_of(results("out"), "water"), 1e-12);
+  EXPECT_EQ(error_of(results("out"), "grains"), 0.0);
+}
+
+}  // namespace
+}  // namespace mudlark

@@ -1,0 +1,40 @@
+/// The number of ranks does not change the answer: all gauges of small cases on 1, 2, 3 and 4
+/// ranks.
+#include "regression/run/runs.hpp"
+
+namespace mudlark {
+namespace {
+
+class Ranks : public RunTest {
+ protected:
+  void expect_the_same_on_all_ranks(const std::string& name) {
+    const Result one = run(name, 1, "one");
+    ASSERT_EQ(one.code, 0) << one.output;
+    double worst = 0.0;
+    for (int ranks = 2; ranks <= 4; ++ranks) {
+      const std::string into = "on " + std::to_string(ranks);
+      const Result several = run(name, ranks, into);
+      ASSERT_EQ(several.code, 0) << several.output;
+      SCOPED_TRACE(into + " ranks");
+      EXPECT_EQ(entry_of(results(into), "ranks"), std::to_string(ranks));
+      worst = std::max(worst, compare_gauges("one", into, 1e-10));
+    }
+    RecordProperty("largest_relative_difference", std::to_string(worst));
+    printf("%s: largest relative difference %.3g\n", name.c_str(), worst);
+  }
+};
+
+TEST_F(Ranks, GiveTheSameDamBreakOverAMoundOfSoil) {
+  expect_the_same_on_all_ranks("dam_on_bed_2d");
+}
+
+TEST_F(Ranks, GiveTheSameDamBreakOverASlopingBedIn3D) {
+  expect_the_same_on_all_ranks("dam_on_bed_3d");
+}
+
+TEST_F(Ranks, GiveTheSameThrownBlockOfSoilIn3D) { expect_the_same_on_all_ranks("soil_3d"); }
+
+TEST_F(Ranks, GiveTheSameFlowAgainstAPorousBlockIn3D) { expect_the_same_on_all_ranks("flow_3d"); }
+
+}  // namespace
+}  // namespace mudlark
