@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "base/version.hpp"
 #include "run/interrupt.hpp"
 #include "run/progress.hpp"
 
@@ -36,6 +37,34 @@ void note_added_mass(World<D>& world, Results<D>& results, double dt, bool& note
       world.clock().time(), a, world.options().coupling.added_mass_factor));
 }
 
+/// The lines of log.txt: what runs, how far it is every few seconds, how it ended.
+template <int D>
+class RunLog {
+ public:
+  RunLog(World<D>& world, Results<D>& results, bool resumed) : world_(&world), results_(&results) {
+    results.log(fmt::format("{}: Mudlark {} ({}), {} ranks, {} from t = {:.9g} s to {:.9g} s",
+                            world.options().title, program_version(), program_commit(),
+                            world.grid().ranks(), resumed ? "resumed" : "started",
+                            world.clock().time(), world.options().time.end));
+  }
+  void step(double dt) {
+    if (MPI_Wtime() - written_ < seconds_between_lines) return;
+    written_ = MPI_Wtime();
+    results_->log(fmt::format("t = {:.9g} s, step {}, dt = {:.4g} s", world_->clock().time(),
+                              world_->clock().step(), dt));
+  }
+  void end(const char* how) {
+    results_->log(fmt::format("{} at t = {:.9g} s, step {}", how, world_->clock().time(),
+                              world_->clock().step()));
+  }
+
+ private:
+  static constexpr double seconds_between_lines = 5.0;
+  World<D>* world_;
+  Results<D>* results_;
+  double written_ = MPI_Wtime();
+};
+
 }  // namespace
 
 template <int D>
@@ -46,6 +75,7 @@ ExitCode run_to_end(World<D>& world, Results<D>& results, const RunSettings& set
   Progress progress(first && !settings.quiet, clock.time(), world.options().time.end);
   double saved = MPI_Wtime();
   bool noted = false;
+  RunLog<D> log(world, results, settings.resume);
   try {
     results.write_due(world);
     results.write_summary(world, "running", "");
@@ -56,6 +86,7 @@ ExitCode run_to_end(World<D>& world, Results<D>& results, const RunSettings& set
       world.advance(dt);
       note_added_mass(world, results, dt, noted);
       results.write_due(world);
+      log.step(dt);
       progress.show(clock.time(), clock.step(), dt, clock.finished());
       const bool due = first && MPI_Wtime() - saved > world.options().time.checkpoint_every;
       const Agreement agreement = agree(world.grid().comm(), due);
@@ -64,12 +95,14 @@ ExitCode run_to_end(World<D>& world, Results<D>& results, const RunSettings& set
         saved = MPI_Wtime();
       }
       if (agreement.stop && !clock.finished()) {
+        log.end("interrupted");
         results.write_summary(world, "interrupted",
                               fmt::format("interrupted at t = {:.9g} s", clock.time()));
         return ExitCode::interrupted;
       }
     }
     results.write_checkpoint(world);
+    log.end("done");
     results.write_summary(world, "done", "");
     return ExitCode::done;
   } catch (const DivergenceError& error) {
