@@ -31,7 +31,8 @@ struct Block {
     body.shape.form = BoxShape{{-1, -1, -1}, {2, 2, 0.75}};
     body.points_per_cell = D == 2 ? 4 : 8;
     body.intrinsic_permeability = 1e-11;
-    body.law = LinearElasticOptions{1e7, 0.3, StrainMeasure::hencky};
+    body.law = LinearElasticOptions{1e7, 0.3};
+    body.strain = StrainMeasure::hencky;
     body.initial_stress = GeostaticStress{};
     body.initial_velocity[0] = Varying([](const Point3& x, double) { return 0.1 * x[2]; }, "shear");
     SoilOptions options;
@@ -91,11 +92,11 @@ void stress_update(benchmark::State& state) {
   auto& points = block.solver.points(0);
   points.carries_deformation = measure == StrainMeasure::small;
   points.resize(points.size());
-  const LinearElastic law({1e7, 0.3, measure});
-  initialise_elastic_state(points, law, measure);
+  const LinearElastic law({1e7, 0.3});
+  initialise_material_state(points, law, measure, 0.4);
   const std::vector<double> gradient(points.size() * D * D, 1e-9);
   for (auto _ : state)
-    benchmark::DoNotOptimize(update_stress(points, 0, points.size(), gradient, law, measure, 1e-6));
+    benchmark::DoNotOptimize(update_stress(points, gradient, law, measure, {1e-6, 0.0, 1.0}));
   set_counters(state, block.points(), (2.0 * 12 + D * D + 2) * sizeof(double));
 }
 

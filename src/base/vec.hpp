@@ -127,6 +127,10 @@ struct SymTensor {
   double xx = 0.0, yy = 0.0, zz = 0.0, xy = 0.0, yz = 0.0, zx = 0.0;
 
   double trace() const { return xx + yy + zz; }
+  /// t : t, every off-diagonal pair counted twice.
+  double squared_norm() const {
+    return xx * xx + yy * yy + zz * zz + 2.0 * (xy * xy + yz * yz + zx * zx);
+  }
   SymTensor& operator+=(const SymTensor& o) {
     xx += o.xx, yy += o.yy, zz += o.zz, xy += o.xy, yz += o.yz, zx += o.zx;
     return *this;

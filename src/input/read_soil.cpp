@@ -8,34 +8,6 @@
 namespace mudlark {
 namespace {
 
-SoilLawOptions read_law(Section& soil) {
-  Section section = soil.table("law", Record::Form::block, true);
-  LinearElasticOptions law;
-  if (!soil.has("law")) return law;
-  section.choice<bool>(
-      "type", {{"linear-elastic", true}}, {},
-      {"neo-hookean", "mohr-coulomb", "drucker-prager", "modified-cam-clay", "tresca", "von-mises",
-       "hypoplastic", "sanisand", "umat", "mu-i", "bingham"});
-  law.young_modulus =
-      section.number("young_modulus", quantity::stiffness,
-                     positive("a stiffness lies above 0", "Loose sand has about 1e7 Pa."));
-  law.poisson_ratio = section.number("poisson_ratio", quantity::number,
-                                     {.lower = -1.0,
-                                      .upper = 0.5,
-                                      .lower_included = false,
-                                      .upper_included = false,
-                                      .reason = "an isotropic elastic solid needs -1 < nu < 0.5",
-                                      .cure = "Sand is usually 0.2-0.35."});
-  law.strain = section.choice<StrainMeasure>("strain",
-                                             {{"hencky", StrainMeasure::hencky},
-                                              {"log", StrainMeasure::logarithmic},
-                                              {"objective", StrainMeasure::objective},
-                                              {"small", StrainMeasure::small}},
-                                             law.strain);
-  section.finish();
-  return law;
-}
-
 int read_points_per_cell(Section& section) {
   const int dimension = section.reading().dimension;
   const int fallback = dimension == 2 ? 4 : 8;
@@ -160,7 +132,7 @@ void read_soil(Section& root, CaseOptions& options, const WaterProperties& water
     read_pore_water(section, body, water);
     read_initial_stress(section, body);
     body.initial_velocity = section.varying_per_axis("initial_velocity", quantity::velocity);
-    body.law = read_law(section);
+    read_law(section, body);
     section.finish();
     if (shape) {
       body.shape = *shape;

@@ -29,6 +29,11 @@ WaterProperties read_water(Section& root, CaseOptions& options);
 void read_porous(Section& root, CaseOptions& options, std::vector<NamedShape>& grounds);
 void read_soil(Section& root, CaseOptions& options, const WaterProperties& water,
                std::vector<NamedShape>& grounds);
+/// law = { ... } and the strain measure that goes with it.
+void read_law(Section& soil, SoilBody& body);
+/// Keys that several laws share.
+double read_young_modulus(Section& section);  ///< [Pa]
+double read_poisson_ratio(Section& section);  ///< [-]
 void read_loads(Section& root, CaseOptions& options);
 void read_solvers(Section& root, CaseOptions& options, std::optional<double> courant);
 void read_coupling(Section& root, CaseOptions& options);

@@ -15,6 +15,9 @@ class LinearElastic final : public SoilModel {
     return lame_ + 2.0 * shear_;
   }
   double shear_modulus() const override { return shear_; }
+  double earth_pressure_at_rest() const override { return lame_ / (lame_ + 2.0 * shear_); }
+  bool supports(StrainMeasure) const override { return true; }
+  bool yields() const override { return false; }
   SymTensor elastic_strain(const SymTensor& stress) const override;
   std::size_t update_stress(const MaterialPoints& points) const override;
 

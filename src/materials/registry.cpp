@@ -17,8 +17,4 @@ std::unique_ptr<SoilModel> make_soil_model(const SoilLawOptions& options) {
   return std::visit(Maker{}, options);
 }
 
-StrainMeasure strain_measure(const SoilLawOptions& options) {
-  return std::visit([](const auto& law) { return law.strain; }, options);
-}
-
 }  // namespace mudlark

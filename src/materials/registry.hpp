@@ -9,7 +9,4 @@ namespace mudlark {
 
 std::unique_ptr<SoilModel> make_soil_model(const SoilLawOptions& options);
 
-/// The strain measure that the options of a law ask for.
-StrainMeasure strain_measure(const SoilLawOptions& options);
-
 }  // namespace mudlark

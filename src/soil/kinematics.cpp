@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -48,20 +49,26 @@ SymTensor half_log_plane(const SymTensor& b) {
   return strain;
 }
 
+/// A run of points on their way through the law.
 struct Batch {
   static constexpr std::size_t capacity = 128;
   std::array<SymTensor, capacity> strain, stress;
+  std::array<std::array<double, 9>, capacity> rotation;
+  std::array<unsigned char, capacity> failed;
+  std::vector<double> history;  ///< point after point
 };
 
-/// Rotated old stress and strain increment of Hughes & Winget (1980), Eqs. 15-22, mid-step
-/// gradient.
-void rotate(const Matrix& step_gradient, SymTensor& stress, SymTensor& strain) {
+SymTensor rotated(const SymTensor& tensor, const Matrix& rotation) {
+  return to_tensor(rotation * to_matrix(tensor) * rotation.transpose());
+}
+
+/// Rotation and strain increment of Hughes & Winget (1980), Eqs. 15-22, mid-step gradient.
+Matrix step_rotation(const Matrix& step_gradient, SymTensor& strain) {
   const Matrix identity = Matrix::Identity();
   const Matrix middle = step_gradient * (identity + 0.5 * step_gradient).inverse();
   const Matrix spin = 0.5 * (middle - middle.transpose());
-  const Matrix rotation = (identity - 0.5 * spin).inverse() * (identity + 0.5 * spin);
-  stress = to_tensor(rotation * to_matrix(stress) * rotation.transpose());
   strain = to_tensor(middle);
+  return (identity - 0.5 * spin).inverse() * (identity + 0.5 * spin);
 }
 
 /// b_e <- f b_e f^T with f = I + step gradient.
@@ -80,14 +87,18 @@ SymTensor push_forward(const SymTensor& b, const double* gradient) {
   }
 }
 
+bool is_rate(StrainMeasure measure) {
+  return measure == StrainMeasure::objective || measure == StrainMeasure::jaumann;
+}
+
 /// The strain that the law sees, and the stress that it starts from.
 template <int D>
 void prepare(SoilParticles<D>& points, std::size_t p, const double* gradient, StrainMeasure measure,
-             SymTensor& strain, SymTensor& stress) {
+             SymTensor& strain, SymTensor& stress, Matrix& rotation) {
   stress = SymTensor{};
-  if (measure == StrainMeasure::objective) {
-    stress = get_tensor(points.stress, p);
-    rotate(embed<D>(gradient, 0.0), stress, strain);
+  if (is_rate(measure)) {
+    rotation = step_rotation(embed<D>(gradient, 0.0), strain);
+    stress = rotated(get_tensor(points.stress, p), rotation);
   } else if (measure == StrainMeasure::small) {
     std::array<double, D * D> old{}, now{};
     for (int c = 0; c < D * D; ++c)
@@ -134,54 +145,121 @@ SymTensor exp_twice(const SymTensor& strain) {
                    eigen.eigenvectors().transpose());
 }
 
+namespace {
+
+/// State variables of the points [first, first + length) into the batch, tensors turned.
 template <int D>
-std::size_t update_stress(SoilParticles<D>& points, std::size_t first, std::size_t count,
-                          std::span<const double> gradient, const SoilModel& law,
-                          StrainMeasure measure, double dt) {
-  Batch batch;
-  std::size_t failed = 0;
-  for (std::size_t start = 0; start < count; start += Batch::capacity) {
-    const std::size_t length = std::min(Batch::capacity, count - start);
+void load_history(const SoilParticles<D>& points, std::size_t first, std::size_t length,
+                  const SoilModel& law, bool rate, Batch& batch) {
+  const std::size_t count = points.history.size();
+  batch.history.resize(count * length);
+  for (std::size_t h = 0; h < count; ++h)
     for (std::size_t k = 0; k < length; ++k)
-      prepare<D>(points, first + start + k, gradient.data() + (start + k) * D * D, measure,
-                 batch.strain[k], batch.stress[k]);
-    failed +=
-        law.update_stress({{batch.strain.data(), length}, {batch.stress.data(), length}, {}, dt});
+      batch.history[k * count + h] = points.history[h][first + k];
+  if (!rate) return;
+  for (const std::size_t at : law.history_tensors())
     for (std::size_t k = 0; k < length; ++k) {
-      const std::size_t p = first + start + k;
-      SymTensor stress = batch.stress[k];
-      if (measure == StrainMeasure::hencky)
-        stress = (points.start_volume[p] / points.volume[p]) * stress;
-      if (measure == StrainMeasure::objective) {  // Hill's term, mid-step
-        const double half_rate = 0.5 * batch.strain[k].trace();
-        SymTensor rotated = get_tensor(points.stress, p), unused;
-        rotate(embed<D>(gradient.data() + (start + k) * D * D, 0.0), rotated, unused);
-        stress = (1.0 / (1.0 + half_rate)) * (stress + -half_rate * rotated);
-      }
-      set_tensor(points.stress, p, stress);
+      double* values = &batch.history[k * count + at];
+      const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> rotation(
+          batch.rotation[k].data());
+      const SymTensor turned =
+          rotated({values[0], values[1], values[2], values[3], values[4], values[5]}, rotation);
+      values[0] = turned.xx, values[1] = turned.yy, values[2] = turned.zz;
+      values[3] = turned.xy, values[4] = turned.yz, values[5] = turned.zx;
     }
+}
+template <int D>
+void store_history(SoilParticles<D>& points, std::size_t first, std::size_t length,
+                   const Batch& batch) {
+  const std::size_t count = points.history.size();
+  for (std::size_t h = 0; h < count; ++h)
+    for (std::size_t k = 0; k < length; ++k)
+      points.history[h][first + k] = batch.history[k * count + h];
+}
+
+/// Cauchy stress from what the law gave, and the elastic state that belongs to it.
+template <int D>
+void finish(SoilParticles<D>& points, std::size_t p, const SymTensor& strain,
+            const Matrix& rotation, const SoilModel& law, StrainMeasure measure, SymTensor stress) {
+  if (measure == StrainMeasure::hencky) {
+    if (law.yields()) {
+      const SymTensor elastic = law.elastic_strain(stress);
+      const SymTensor lost = strain + -1.0 * elastic;
+      if (lost.squared_norm() > 1e-26) set_tensor(points.elastic, p, exp_twice(elastic));
+    }
+    stress = (points.start_volume[p] / points.volume[p]) * stress;
   }
-  return failed;
+  if (measure == StrainMeasure::objective) {  // Hill's term, mid-step
+    const double half_rate = 0.5 * strain.trace();
+    const SymTensor old = rotated(get_tensor(points.stress, p), rotation);
+    stress = (1.0 / (1.0 + half_rate)) * (stress + -half_rate * old);
+  }
+  set_tensor(points.stress, p, stress);
+}
+
+}  // namespace
+
+template <int D>
+StressResult update_stress(SoilParticles<D>& points, std::span<const double> gradient,
+                           const SoilModel& law, StrainMeasure measure, const StressStep& step) {
+  Batch batch;
+  StressResult result;
+  const bool with_history = !points.history.empty();
+  Matrix rotation = Matrix::Identity();
+  using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+  for (std::size_t first = 0; first < points.size(); first += Batch::capacity) {
+    const std::size_t length = std::min(Batch::capacity, points.size() - first);
+    for (std::size_t k = 0; k < length; ++k) {
+      prepare<D>(points, first + k, gradient.data() + (first + k) * D * D, measure, batch.strain[k],
+                 batch.stress[k], rotation);
+      if (is_rate(measure)) Eigen::Map<RowMajor>(batch.rotation[k].data()) = rotation;
+    }
+    if (with_history) load_history(points, first, length, law, is_rate(measure), batch);
+    std::fill_n(batch.failed.begin(), length, static_cast<unsigned char>(0));
+    MaterialPoints material{
+        {batch.strain.data(), length}, {batch.stress.data(), length}, batch.history};
+    material.dt = step.dt, material.time = step.time, material.length = step.length;
+    if (law.wants_rotation()) material.rotation = {batch.rotation.data(), length};
+    material.failed = {batch.failed.data(), length};
+    const std::size_t failed = law.update_stress(material);
+    if (failed > 0 && result.failed == 0)
+      result.first_failed =
+          first + static_cast<std::size_t>(std::find(batch.failed.begin(), batch.failed.end(), 1) -
+                                           batch.failed.begin());
+    result.failed += failed;
+    if (with_history) store_history(points, first, length, batch);
+    for (std::size_t k = 0; k < length; ++k)
+      finish(points, first + k, batch.strain[k],
+             is_rate(measure) ? Matrix(Eigen::Map<const RowMajor>(batch.rotation[k].data()))
+                              : rotation,
+             law, measure, batch.stress[k]);
+  }
+  return result;
 }
 
 template <int D>
-void initialise_elastic_state(SoilParticles<D>& points, const SoilModel& law,
-                              StrainMeasure measure) {
+void initialise_material_state(SoilParticles<D>& points, const SoilModel& law,
+                               StrainMeasure measure, double porosity) {
+  const std::size_t count = points.history.size();
+  std::vector<double> history(count);
   for (std::size_t p = 0; p < points.size(); ++p) {
-    const SymTensor strain = law.elastic_strain(get_tensor(points.stress, p));
-    set_tensor(points.elastic, p, measure == StrainMeasure::small ? strain : exp_twice(strain));
+    const SymTensor stress = get_tensor(points.stress, p);
+    std::fill(history.begin(), history.end(), 0.0);
+    law.initialise_history({&stress, 1}, porosity, history);
+    for (std::size_t h = 0; h < count; ++h) points.history[h][p] = history[h];
     if (points.carries_deformation)
       for (int a = 0; a < D; ++a) points.deformation[a * D + a][p] = 1.0;
+    if (is_rate(measure)) continue;
+    const SymTensor strain = law.elastic_strain(stress);
+    set_tensor(points.elastic, p, measure == StrainMeasure::small ? strain : exp_twice(strain));
   }
 }
 
-template std::size_t update_stress(SoilParticles<2>&, std::size_t, std::size_t,
-                                   std::span<const double>, const SoilModel&, StrainMeasure,
-                                   double);
-template std::size_t update_stress(SoilParticles<3>&, std::size_t, std::size_t,
-                                   std::span<const double>, const SoilModel&, StrainMeasure,
-                                   double);
-template void initialise_elastic_state(SoilParticles<2>&, const SoilModel&, StrainMeasure);
-template void initialise_elastic_state(SoilParticles<3>&, const SoilModel&, StrainMeasure);
+template StressResult update_stress(SoilParticles<2>&, std::span<const double>, const SoilModel&,
+                                    StrainMeasure, const StressStep&);
+template StressResult update_stress(SoilParticles<3>&, std::span<const double>, const SoilModel&,
+                                    StrainMeasure, const StressStep&);
+template void initialise_material_state(SoilParticles<2>&, const SoilModel&, StrainMeasure, double);
+template void initialise_material_state(SoilParticles<3>&, const SoilModel&, StrainMeasure, double);
 
 }  // namespace mudlark

@@ -17,22 +17,34 @@ SymTensor half_log(const SymTensor& b);
 /// b = exp(2 strain), the inverse of half_log.
 SymTensor exp_twice(const SymTensor& strain);
 
-/// Gives points their stress after a step of duration dt [s].
-/// `gradient` holds D*D values per point of the batch [first, first + count): dt * dv_i/dx_j, row
-/// i. Expects volumes to be updated already. Returns how many points the law could not integrate.
+/// The step that stresses are updated over.
+struct StressStep {
+  double dt = 0.0, time = 0.0;  ///< length and start [s]
+  double length = 1.0;          ///< cell size [m]
+};
+/// How many points a law could not integrate, and the first of them.
+struct StressResult {
+  std::size_t failed = 0, first_failed = 0;
+};
+
+/// Gives points their stress after a step, and updates their state variables.
+/// `gradient` holds D*D values per point: dt * dv_i/dx_j, row i. Expects volumes to be updated
+/// already.
 ///   small:       sigma = law(sym(F) - I + eps_0)                        (reference configuration)
 ///   logarithmic: sigma = law(1/2 ln b_e)
 ///   hencky:      sigma = law(1/2 ln b_e) / J,  b_e <- f b_e f^T          (Simo 1992)
 ///   objective:   Hughes & Winget (1980) rotation, then Hill's rate: d sigma = law(d eps) - sigma
 ///   tr(d eps)
+///   jaumann:     the same rotation, sigma = law(rotated sigma, d eps)
+/// Of a law that yields, `hencky` takes the new elastic strain from the new stress.
 template <int D>
-std::size_t update_stress(SoilParticles<D>& points, std::size_t first, std::size_t count,
-                          std::span<const double> gradient, const SoilModel& law,
-                          StrainMeasure measure, double dt);
+StressResult update_stress(SoilParticles<D>& points, std::span<const double> gradient,
+                           const SoilModel& law, StrainMeasure measure, const StressStep& step);
 
-/// Prepares the elastic state of new points so that their initial stress is in equilibrium with it.
+/// Prepares the elastic state and the state variables of new points, so that their initial stress
+/// is in equilibrium with them. `porosity` [-] is the initial one.
 template <int D>
-void initialise_elastic_state(SoilParticles<D>& points, const SoilModel& law,
-                              StrainMeasure measure);
+void initialise_material_state(SoilParticles<D>& points, const SoilModel& law,
+                               StrainMeasure measure, double porosity);
 
 }  // namespace mudlark

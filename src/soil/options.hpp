@@ -16,7 +16,7 @@ enum class PoreWater { none, two_phase };
 enum class PermeabilityLaw { constant, kozeny_carman };
 
 struct GeostaticStress {
-  double lateral_coefficient = -1.0;  ///< K0 [-]; negative: nu/(1-nu)
+  double lateral_coefficient = -1.0;  ///< K0 [-]; negative: what the law says
 };
 
 /// One body of soil.
@@ -30,6 +30,7 @@ struct SoilBody {
   PermeabilityLaw permeability_law = PermeabilityLaw::constant;
   int points_per_cell = 4;  ///< total per full cell; a D-th power (4, 9, 16 in 2D; 8, 27, 64 in 3D)
   SoilLawOptions law;
+  StrainMeasure strain = StrainMeasure::hencky;
   std::variant<SymTensor, GeostaticStress> initial_stress =
       SymTensor{};  ///< effective, tension positive [Pa]
   std::optional<Varying>
@@ -57,9 +58,8 @@ struct SoilOptions {
   Transfer transfer = Transfer::flip;
   double flip_fraction = 0.99;  ///< share of FLIP in the velocity update [-], the rest is PIC
   double damping = 0.0;         ///< local non-viscous damping coefficient [-] (Cundall)
-  /// Share of the step in which the fastest wave crosses a cell [-]. Measured limits in 1D to 3D:
-  /// 1.0 (composite), 0.8 (quadratic), 0.7 (linear; soil whose edges pass nodes is not stable at
-  /// any).
+  /// Share of the largest stable step [-]; that is 1.0 (composite), 0.8 (quadratic) or 0.65
+  /// (linear) of the time in which the fastest wave crosses a cell.
   double courant = 0.5;
   std::optional<double> max_step;  ///< [s]
   LoadForm load_form = LoadForm::virtual_stress;

@@ -2,7 +2,9 @@
 /// The material points of one body of soil: a struct of arrays, one array per component.
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/vec.hpp"
@@ -38,6 +40,20 @@ struct SoilParticles {
   std::vector<double> grain_mass;     ///< [kg]
   std::vector<double> volume;         ///< bulk volume now [m^D]
   std::vector<double> start_volume;   ///< bulk volume at time zero [m^D]
+  /// State variables of the soil law, one array per name; set once, by the law in use.
+  std::vector<std::vector<double>> history;
+  std::vector<std::string> history_names;  ///< without the unit
+  std::vector<std::string> history_units;
+
+  /// Makes room for the state variables "name [unit]" of a law.
+  void set_history(std::span<const std::string_view> names) {
+    for (const std::string_view name : names) {
+      const std::size_t bracket = name.find(" [");
+      history_names.emplace_back(name.substr(0, bracket));
+      history_units.emplace_back(name.substr(bracket + 2, name.size() - bracket - 3));
+    }
+    history.resize(names.size());
+  }
 
   std::size_t size() const { return id.size(); }
 
@@ -61,6 +77,8 @@ struct SoilParticles {
     f("grain mass", "kg", 1, &grain_mass);
     f("volume", "m^D", 1, &volume);
     f("initial volume", "m^D", 1, &start_volume);
+    for (std::size_t h = 0; h < history.size(); ++h)
+      f(history_names[h].c_str(), history_units[h].c_str(), 1, &history[h]);
   }
   /// The same, array by array.
   template <class F>

@@ -75,8 +75,7 @@ Overburden overburden(const Grid<D>& grid, const SoilOptions& options, const Vec
 
 double lateral_coefficient(const SoilBody& body, const GeostaticStress& geostatic) {
   if (geostatic.lateral_coefficient >= 0.0) return geostatic.lateral_coefficient;
-  return std::visit([](const auto& law) { return law.poisson_ratio / (1.0 - law.poisson_ratio); },
-                    body.law);
+  return make_soil_model(body.law)->earth_pressure_at_rest();
 }
 
 }  // namespace
@@ -86,7 +85,8 @@ SoilParticles<D> seed_points(const Grid<D>& grid, const SoilBody& body, std::siz
                              Transfer transfer) {
   SoilParticles<D> points;
   points.carries_affine = transfer == Transfer::apic;
-  points.carries_deformation = strain_measure(body.law) == StrainMeasure::small;
+  points.carries_deformation = body.strain == StrainMeasure::small;
+  points.set_history(make_soil_model(body.law)->history_names());
   const int m = points_per_axis<D>(body);
   const double volume = grid.cell_volume() / body.points_per_cell;
   for_each(grid.owned(), [&](const Index<D>& cell) {
@@ -120,6 +120,8 @@ void set_initial_stress(const Grid<D>& grid, const SoilOptions& options,
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const SoilBody& body = options.bodies[b];
     const double step = grid.spacing()[D - 1] / points_per_axis<D>(body);
+    const auto* geostatic = std::get_if<GeostaticStress>(&body.initial_stress);
+    const double k0 = geostatic ? lateral_coefficient(body, *geostatic) : 0.0;
     for (std::size_t p = 0; p < bodies[b].size(); ++p) {
       SymTensor stress;
       double pore_pressure = 0.0;
@@ -127,7 +129,6 @@ void set_initial_stress(const Grid<D>& grid, const SoilOptions& options,
         stress = *tensor;
       } else {
         const Overburden above = overburden(grid, options, bodies[b].position_of(p), step);
-        const double k0 = lateral_coefficient(body, std::get<GeostaticStress>(body.initial_stress));
         stress.zz = -above.effective;
         stress.xx = stress.yy = -k0 * above.effective;
         if (body.pore_water != PoreWater::none) pore_pressure = above.water;

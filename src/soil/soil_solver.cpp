@@ -58,6 +58,41 @@ double fastest_wave_squared(double modulus, double porosity, double grain_densit
   return 0.5 * (a + d + std::sqrt((a - d) * (a - d) + 4.0 * bc));
 }
 
+/// Stiffest state of all points [Pa].
+template <int D>
+double largest_wave_modulus(const SoilParticles<D>& points, const SoilModel& law) {
+  constexpr std::size_t capacity = 128;
+  const std::size_t variables = points.history.size();
+  std::vector<SymTensor> stress(capacity);
+  std::vector<double> history(capacity * variables);
+  double largest = 0.0;
+  for (std::size_t first = 0; first < points.size(); first += capacity) {
+    const std::size_t length = std::min(capacity, points.size() - first);
+    for (std::size_t k = 0; k < length; ++k) {
+      stress[k] = get_tensor(points.stress, first + k);
+      for (std::size_t h = 0; h < variables; ++h)
+        history[k * variables + h] = points.history[h][first + k];
+    }
+    largest = std::max(
+        largest, law.wave_modulus({stress.data(), length}, {history.data(), length * variables}));
+  }
+  return largest;
+}
+
+/// Share of the time in which a wave crosses a cell up to which each kernel is stable, measured in
+/// 1D to 3D (verification_soil_stability).
+double stable_courant(Kernel kernel) {
+  switch (kernel) {
+    case Kernel::linear:
+      return 0.65;
+    case Kernel::quadratic:
+      return 0.8;
+    case Kernel::composite:
+      break;
+  }
+  return 1.0;
+}
+
 }  // namespace
 
 template <int D>
@@ -81,6 +116,9 @@ SoilSolver<D>::SoilSolver(const Grid<D>& grid, const SoilOptions& options)
                           options.water_viscosity, body.intrinsic_permeability,
                           body.permeability_law});
     laws_.push_back(make_soil_model(body.law));
+    if (!laws_.back()->supports(body.strain))
+      throw InputError(fmt::format("soil {}: law {} cannot be used with this strain measure",
+                                   body.name, laws_.back()->name()));
   }
 }
 
@@ -91,7 +129,8 @@ void SoilSolver<D>::initialise() {
     points_.push_back(seed_points(*grid_, options_.bodies[b], b, options_.transfer));
   set_initial_stress(*grid_, options_, points_);
   for (std::size_t b = 0; b < points_.size(); ++b)
-    initialise_elastic_state(points_[b], *laws_[b], strain_measure(options_.bodies[b].law));
+    initialise_material_state(points_[b], *laws_[b], options_.bodies[b].strain,
+                              options_.bodies[b].porosity);
   redistribute();
 }
 
@@ -133,13 +172,14 @@ void SoilSolver<D>::redistribute() {
 }
 
 /// What bounds the step of one body, over all ranks: {-least porosity, -least stretch, largest
-/// speed squared}; the speed is negative without points.
+/// speed squared, largest stiffness}; the speed is negative without points.
 template <int D>
-std::vector<std::array<double, 3>> SoilSolver<D>::step_bounds() const {
-  std::vector<std::array<double, 3>> mine(points_.size(), {-1.0, -1.0, -1.0}), all(mine);
+std::vector<std::array<double, 4>> SoilSolver<D>::step_bounds() const {
+  std::vector<std::array<double, 4>> mine(points_.size(), {-1.0, -1.0, -1.0, 0.0}), all(mine);
   for (std::size_t b = 0; b < points_.size(); ++b) {
     const auto& points = points_[b];
-    auto& [porosity, stretch, speed2] = mine[b];
+    auto& [porosity, stretch, speed2, modulus] = mine[b];
+    modulus = largest_wave_modulus(points, *laws_[b]);
     for (std::size_t p = 0; p < points.size(); ++p) {
       porosity = std::max(
           porosity, points.grain_mass[p] / (constants_[b].grain_density * points.volume[p]) - 1.0);
@@ -152,7 +192,7 @@ std::vector<std::array<double, 3>> SoilSolver<D>::step_bounds() const {
       speed2 = std::max({speed2, v2, w2});
     }
   }
-  MPI_Allreduce(mine.data(), all.data(), static_cast<int>(3 * mine.size()), MPI_DOUBLE, MPI_MAX,
+  MPI_Allreduce(mine.data(), all.data(), static_cast<int>(4 * mine.size()), MPI_DOUBLE, MPI_MAX,
                 grid_->comm());
   return all;
 }
@@ -166,15 +206,18 @@ double SoilSolver<D>::stable_step() const {
     const double least_stretch = -bounds[b][1], speed2 = bounds[b][2];
     if (speed2 < 0.0) continue;
     // Tangent of a law linear in logarithmic strain, seen in the compressed state (Kirchhoff: (M -
-    // tau)/J).
-    const double modulus =
-        laws_[b]->wave_modulus({}, {}) * (1.0 - std::log(least_stretch)) / least_stretch;
+    // tau)/J). Rates carry their tangent in the state.
+    const double stiffer = options_.bodies[b].strain == StrainMeasure::jaumann
+                               ? 1.0
+                               : (1.0 - std::log(least_stretch)) / least_stretch;
+    const double modulus = bounds[b][3] * stiffer;
     const double n = std::clamp(-bounds[b][0], 0.01, 0.99);
     const double wave2 = fastest_wave_squared(modulus, n, body.grain_density, body.water_density,
                                               options_.water_bulk_modulus);
     fastest = std::max(fastest, std::sqrt(wave2) + std::sqrt(speed2));
   }
-  double step = fastest > 0.0 ? options_.courant * grid_->smallest_spacing() / fastest
+  const double share = options_.courant * stable_courant(options_.kernel);
+  double step = fastest > 0.0 ? share * grid_->smallest_spacing() / fastest
                               : std::numeric_limits<double>::max();
   if (options_.max_step) step = std::min(step, *options_.max_step);
   return step;
@@ -340,8 +383,11 @@ void SoilSolver<D>::update_points(double dt) {
           dt * options_.water_bulk_modulus / porosity * point_motion_.flux_divergence[p];
       if (!(porosity > 0.0)) ++failed;
     }
-    failed += update_stress(points, 0, points.size(), point_motion_.gradient, *laws_[b],
-                            strain_measure(options_.bodies[b].law), dt);
+    const StressResult result =
+        update_stress(points, point_motion_.gradient, *laws_[b], options_.bodies[b].strain,
+                      {dt, time_, grid_->smallest_spacing()});
+    if (result.failed > 0) note_failed_stress(b, result);
+    failed += result.failed;
   }
   std::array<double, 2> mine{point_motion_.largest_speed, static_cast<double>(failed)},
       worst = mine;
@@ -352,10 +398,27 @@ void SoilSolver<D>::update_points(double dt) {
   if (worst[1] > 0.0 || !(worst[0] < too_fast)) report_bad_point(worst[0], failed);
 }
 
+/// Keeps where and in which state the first point that a law could not integrate was.
+template <int D>
+void SoilSolver<D>::note_failed_stress(std::size_t body, const StressResult& result) {
+  const auto& points = points_[body];
+  const std::size_t p = result.first_failed;
+  const Point3 x = to_point3(points.position_of(p));
+  const SymTensor s = get_tensor(points.stress, p);
+  failed_stress_ = fmt::format(
+      "soil {}: law {} could not be integrated at ({:.6g}, {:.6g}, {:.6g}) m, t = {:.6g} s (point "
+      "{}: effective stress xx {:.4g}, yy {:.4g}, zz {:.4g}, zx {:.4g} Pa",
+      options_.bodies[body].name, laws_[body]->name(), x[0], x[1], x[2], time_, points.id[p], s.xx,
+      s.yy, s.zz, s.zx);
+  for (std::size_t h = 0; h < points.history.size(); ++h)
+    failed_stress_ += fmt::format(", {} {:.4g}", points.history_names[h], points.history[h][p]);
+  failed_stress_ += ")";
+}
+
 /// Names the worst point of all ranks and throws.
 template <int D>
 void SoilSolver<D>::report_bad_point(double largest_speed, std::size_t failed) const {
-  std::string problem;
+  std::string problem = failed_stress_;
   for (std::size_t b = 0; b < points_.size() && problem.empty(); ++b) {
     const auto& points = points_[b];
     for (std::size_t p = 0; p < points.size() && problem.empty(); ++p) {

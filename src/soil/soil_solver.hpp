@@ -7,6 +7,7 @@
 #include "grid/halo.hpp"
 #include "materials/soil_model.hpp"
 #include "soil/fluid_load.hpp"
+#include "soil/kinematics.hpp"
 #include "soil/nodes.hpp"
 #include "soil/options.hpp"
 #include "soil/particles.hpp"
@@ -28,7 +29,8 @@ class SoilSolver {
 
   /// Sends points to their owners, sorts them, and finds where soil is. Collective.
   void redistribute();
-  /// Largest stable step of `advance` [s]: courant * h / (c + |v|), c the undrained or the
+  /// Largest stable step of `advance` [s]: courant * limit of the kernel * h / (c + |v|), c the
+  /// undrained or the
   /// drag-free compression wave, whichever is faster. Permeability does not enter. Same on all
   /// ranks.
   double stable_step() const;
@@ -78,11 +80,12 @@ class SoilSolver {
  private:
   IndexBox<D> solved_faces(int axis) const;
   bool exchanges_halos() const;
-  std::vector<std::array<double, 3>> step_bounds() const;
+  std::vector<std::array<double, 4>> step_bounds() const;
   void gather_nodes();
   void solve_nodes(double dt);
   void solve_face(const NodeSums& sums, double dt, double face_volume, NodeMotion& motion) const;
   void update_points(double dt);
+  void note_failed_stress(std::size_t body, const StressResult& result);
   void report_bad_point(double largest_speed, std::size_t failed) const;
 
   const Grid<D>* grid_;
@@ -102,6 +105,7 @@ class SoilSolver {
   double time_ = 0.0;
   double travelled_ = 0.0;  ///< bound on how far any point moved since redistribute(), in cells
   double removed_grain_mass_ = 0.0;
+  std::string failed_stress_;  ///< the point that a law could not integrate, in words
 };
 
 extern template class SoilSolver<2>;

@@ -91,7 +91,7 @@ TEST_F(CaseFile, BecomesOptionsInSiUnits) {
   EXPECT_DOUBLE_EQ(options.flow->bodies[0].velocity[0]({0, 0, 2.0}, 0.0), 0.2);
   const SoilBody& soil = options.soil->bodies.at(0);
   EXPECT_DOUBLE_EQ(soil.intrinsic_permeability, 1e-6 * 1.002e-3 / 9810.0);
-  EXPECT_EQ(std::get<LinearElasticOptions>(soil.law).strain, StrainMeasure::logarithmic);
+  EXPECT_EQ(soil.strain, StrainMeasure::logarithmic);
   EXPECT_EQ(std::get<GeostaticStress>(soil.initial_stress).lateral_coefficient, 0.5);
   EXPECT_DOUBLE_EQ((*soil.initial_pore_pressure)({0, 0, 0.25}, 0.0), 75.0);
   EXPECT_DOUBLE_EQ(options.soil->loads[0].pressure({}, 30.0), 2e5);

@@ -61,13 +61,15 @@ TEST(LinearElastic, ElasticStrainIsTheInverseOfTheStress) {
   }
 }
 
-TEST(Registry, MakesTheLawAndKnowsItsStrainMeasure) {
-  const SoilLawOptions options = LinearElasticOptions{young, poisson, StrainMeasure::objective};
+TEST(Registry, MakesTheLawAndKnowsWhatItCanDo) {
+  const SoilLawOptions options = LinearElasticOptions{young, poisson};
   const auto law = make_soil_model(options);
   EXPECT_EQ(law->name(), "linear-elastic");
   EXPECT_TRUE(law->history_names().empty());
   EXPECT_DOUBLE_EQ(law->shear_modulus(), young / (2 * (1 + poisson)));
-  EXPECT_EQ(strain_measure(options), StrainMeasure::objective);
+  EXPECT_FALSE(law->yields());
+  EXPECT_TRUE(law->supports(StrainMeasure::jaumann));
+  EXPECT_NEAR(law->earth_pressure_at_rest(), poisson / (1 - poisson), 1e-15);
 }
 
 }  // namespace

@@ -28,7 +28,8 @@ CaseOptions rocking_bed(double added_mass_factor, double step) {
   body.name = "bed";
   body.shape.form = BoxShape{{0, -1, 0}, {2, 1, 0.5}};
   body.intrinsic_permeability = 1e-6 * 1.002e-3 / 9810.0;
-  body.law = LinearElasticOptions{1e5, 0.3, StrainMeasure::hencky};
+  body.law = LinearElasticOptions{1e5, 0.3};
+  body.strain = StrainMeasure::hencky;
   body.initial_stress = GeostaticStress{};
   body.initial_velocity[2] = Varying(
       [](const Point3& x, double) { return 0.01 * std::cos(pi * x[0] / 2.0) * x[2]; }, "rocking");

@@ -28,7 +28,8 @@ CaseOptions column(double water_height, Mudline mudline) {
   body.name = "column";
   body.shape.form = BoxShape{{0, -1, 0}, {0.1, 1, 1.0}};
   body.intrinsic_permeability = 1e-4 * 1.002e-3 / 9810.0;
-  body.law = LinearElasticOptions{1e6, 0.3, StrainMeasure::hencky};
+  body.law = LinearElasticOptions{1e6, 0.3};
+  body.strain = StrainMeasure::hencky;
   body.initial_stress = GeostaticStress{};
   soil.bodies.push_back(body);
   soil.water_bulk_modulus = 2.15e7;

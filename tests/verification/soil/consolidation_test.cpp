@@ -41,7 +41,8 @@ struct Column {
     body.porosity = porosity;
     body.points_per_cell = points_per_cell;
     body.intrinsic_permeability = conductivity * 1.002e-3 / 9810.0;
-    body.law = LinearElasticOptions{young, poisson, strain};
+    body.law = LinearElasticOptions{young, poisson};
+    body.strain = strain;
     if (undrained_start) {
       const double effective = -(1 - undrained_share()) * load,
                    lateral = poisson / (1 - poisson) * effective;

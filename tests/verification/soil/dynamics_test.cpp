@@ -114,7 +114,8 @@ double measured_frequency(int cells, Kernel kernel, double poisson) {
   const double h = 1.0 / cells;
   const Grid<2> grid = make_grid<2>({2, cells + 4, 1}, h, "ssso");
   SoilOptions options = make_soil(2, {-1, -1, -1}, {9, 9, 1.0}, false);
-  options.bodies[0].law = LinearElasticOptions{1e6, poisson, StrainMeasure::small};
+  options.bodies[0].law = LinearElasticOptions{1e6, poisson};
+  options.bodies[0].strain = StrainMeasure::small;
   options.flip_fraction = 1.0;
   options.kernel = kernel;
   SoilSolver<2> soil(grid, options);

@@ -32,7 +32,8 @@ SoilOptions make_bed(const Setting& setting) {
     dry.name = "dry";
     dry.shape.form = BoxShape{{0.2, -1, 0.6}, {0.5, 9, 0.8}};
     dry.pore_water = PoreWater::none;
-    dry.law = LinearElasticOptions{2e6, 0.2, StrainMeasure::objective};
+    dry.law = LinearElasticOptions{2e6, 0.2};
+    dry.strain = StrainMeasure::objective;
     soil.bodies.push_back(dry);
   }
   soil.loads.push_back(

@@ -42,7 +42,8 @@ inline SoilOptions make_soil(int dimension, const Point3& lower, const Point3& u
   body.pore_water = wet ? PoreWater::two_phase : PoreWater::none;
   body.intrinsic_permeability = 1e-10;
   body.points_per_cell = dimension == 2 ? 4 : 8;
-  body.law = LinearElasticOptions{1e6, 0.3, StrainMeasure::hencky};
+  body.law = LinearElasticOptions{1e6, 0.3};
+  body.strain = StrainMeasure::hencky;
   SoilOptions soil;
   soil.water_bulk_modulus = 2e7;
   soil.bodies.push_back(body);
