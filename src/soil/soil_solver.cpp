@@ -8,11 +8,10 @@
 
 #include "base/errors.hpp"
 #include "materials/registry.hpp"
-#include "parallel/collective_error.hpp"
-#include "soil/exact_sum.hpp"
 #include "soil/kinematics.hpp"
 #include "soil/redistribute.hpp"
 #include "soil/seeding.hpp"
+#include "soil/stable_step.hpp"
 #include "soil/walls.hpp"
 
 namespace mudlark {
@@ -41,56 +40,6 @@ std::array<double*, D> as_doubles(NodeField<T, D>& nodes) {
   std::array<double*, D> all{};
   for (std::size_t a = 0; a < all.size(); ++a) all[a] = reinterpret_cast<double*>(nodes[a].data());
   return all;
-}
-
-/// Square of the fastest compression wave [m2/s2]: the larger eigenvalue of the drag-free two-phase
-/// problem M^-1 K, K = [E + (1-n)^2 Q, (1-n) n Q; ., n^2 Q], Q = K_w/n, M = diag((1-n) rho_s, n
-/// rho_w). The undrained wave (E + Q)/rho is its Rayleigh quotient for equal velocities, hence
-/// slower.
-double fastest_wave_squared(double modulus, double porosity, double grain_density,
-                            double water_density, double water_bulk_modulus) {
-  const double n = porosity, solid = 1.0 - n;
-  if (water_density == 0.0) return modulus / (solid * grain_density);
-  const double q = water_bulk_modulus / n;
-  const double a = (modulus + solid * solid * q) / (solid * grain_density);
-  const double d = n * q / water_density;
-  const double bc = solid * n * q * q / (grain_density * water_density);
-  return 0.5 * (a + d + std::sqrt((a - d) * (a - d) + 4.0 * bc));
-}
-
-/// Stiffest state of all points [Pa].
-template <int D>
-double largest_wave_modulus(const SoilParticles<D>& points, const SoilModel& law) {
-  constexpr std::size_t capacity = 128;
-  const std::size_t variables = points.history.size();
-  std::vector<SymTensor> stress(capacity);
-  std::vector<double> history(capacity * variables);
-  double largest = 0.0;
-  for (std::size_t first = 0; first < points.size(); first += capacity) {
-    const std::size_t length = std::min(capacity, points.size() - first);
-    for (std::size_t k = 0; k < length; ++k) {
-      stress[k] = get_tensor(points.stress, first + k);
-      for (std::size_t h = 0; h < variables; ++h)
-        history[k * variables + h] = points.history[h][first + k];
-    }
-    largest = std::max(
-        largest, law.wave_modulus({stress.data(), length}, {history.data(), length * variables}));
-  }
-  return largest;
-}
-
-/// Share of the time in which a wave crosses a cell up to which each kernel is stable, measured in
-/// 1D to 3D (verification_soil_stability).
-double stable_courant(Kernel kernel) {
-  switch (kernel) {
-    case Kernel::linear:
-      return 0.65;
-    case Kernel::quadratic:
-      return 0.8;
-    case Kernel::composite:
-      break;
-  }
-  return 1.0;
 }
 
 }  // namespace
@@ -171,56 +120,9 @@ void SoilSolver<D>::redistribute() {
   travelled_ = 0.0;
 }
 
-/// What bounds the step of one body, over all ranks: {-least porosity, -least stretch, largest
-/// speed squared, largest stiffness}; the speed is negative without points.
-template <int D>
-std::vector<std::array<double, 4>> SoilSolver<D>::step_bounds() const {
-  std::vector<std::array<double, 4>> mine(points_.size(), {-1.0, -1.0, -1.0, 0.0}), all(mine);
-  for (std::size_t b = 0; b < points_.size(); ++b) {
-    const auto& points = points_[b];
-    auto& [porosity, stretch, speed2, modulus] = mine[b];
-    modulus = largest_wave_modulus(points, *laws_[b]);
-    for (std::size_t p = 0; p < points.size(); ++p) {
-      porosity = std::max(
-          porosity, points.grain_mass[p] / (constants_[b].grain_density * points.volume[p]) - 1.0);
-      stretch = std::max(stretch, -points.volume[p] / points.start_volume[p]);
-      double v2 = 0.0, w2 = 0.0;
-      for (int a = 0; a < D; ++a) {
-        v2 += points.velocity[a][p] * points.velocity[a][p];
-        w2 += points.water_velocity[a][p] * points.water_velocity[a][p];
-      }
-      speed2 = std::max({speed2, v2, w2});
-    }
-  }
-  MPI_Allreduce(mine.data(), all.data(), static_cast<int>(4 * mine.size()), MPI_DOUBLE, MPI_MAX,
-                grid_->comm());
-  return all;
-}
-
 template <int D>
 double SoilSolver<D>::stable_step() const {
-  double fastest = 0.0;
-  const auto bounds = step_bounds();
-  for (std::size_t b = 0; b < points_.size(); ++b) {
-    const BodyConstants& body = constants_[b];
-    const double least_stretch = -bounds[b][1], speed2 = bounds[b][2];
-    if (speed2 < 0.0) continue;
-    // Tangent of a law linear in logarithmic strain, seen in the compressed state (Kirchhoff: (M -
-    // tau)/J). Rates carry their tangent in the state.
-    const double stiffer = options_.bodies[b].strain == StrainMeasure::jaumann
-                               ? 1.0
-                               : (1.0 - std::log(least_stretch)) / least_stretch;
-    const double modulus = bounds[b][3] * stiffer;
-    const double n = std::clamp(-bounds[b][0], 0.01, 0.99);
-    const double wave2 = fastest_wave_squared(modulus, n, body.grain_density, body.water_density,
-                                              options_.water_bulk_modulus);
-    fastest = std::max(fastest, std::sqrt(wave2) + std::sqrt(speed2));
-  }
-  const double share = options_.courant * stable_courant(options_.kernel);
-  double step = fastest > 0.0 ? share * grid_->smallest_spacing() / fastest
-                              : std::numeric_limits<double>::max();
-  if (options_.max_step) step = std::min(step, *options_.max_step);
-  return step;
+  return mudlark::stable_step(*grid_, options_, points_, constants_, laws_);
 }
 
 template <int D>
@@ -398,51 +300,6 @@ void SoilSolver<D>::update_points(double dt) {
   if (worst[1] > 0.0 || !(worst[0] < too_fast)) report_bad_point(worst[0], failed);
 }
 
-/// Keeps where and in which state the first point that a law could not integrate was.
-template <int D>
-void SoilSolver<D>::note_failed_stress(std::size_t body, const StressResult& result) {
-  const auto& points = points_[body];
-  const std::size_t p = result.first_failed;
-  const Point3 x = to_point3(points.position_of(p));
-  const SymTensor s = get_tensor(points.stress, p);
-  failed_stress_ = fmt::format(
-      "soil {}: law {} could not be integrated at ({:.6g}, {:.6g}, {:.6g}) m, t = {:.6g} s (point "
-      "{}: effective stress xx {:.4g}, yy {:.4g}, zz {:.4g}, zx {:.4g} Pa",
-      options_.bodies[body].name, laws_[body]->name(), x[0], x[1], x[2], time_, points.id[p], s.xx,
-      s.yy, s.zz, s.zx);
-  for (std::size_t h = 0; h < points.history.size(); ++h)
-    failed_stress_ += fmt::format(", {} {:.4g}", points.history_names[h], points.history[h][p]);
-  failed_stress_ += ")";
-}
-
-/// Names the worst point of all ranks and throws.
-template <int D>
-void SoilSolver<D>::report_bad_point(double largest_speed, std::size_t failed) const {
-  std::string problem = failed_stress_;
-  for (std::size_t b = 0; b < points_.size() && problem.empty(); ++b) {
-    const auto& points = points_[b];
-    for (std::size_t p = 0; p < points.size() && problem.empty(); ++p) {
-      double speed2 = 0.0;
-      for (int a = 0; a < D; ++a) speed2 += points.velocity[a][p] * points.velocity[a][p];
-      const double porosity =
-          1.0 - points.grain_mass[p] / (constants_[b].grain_density * points.volume[p]);
-      const bool bad_speed = !(std::sqrt(speed2) < 0.99 * largest_speed) || !std::isfinite(speed2);
-      const bool bad_porosity = constants_[b].water_density > 0.0 && !(porosity > 0.0);
-      if (!bad_porosity && !(failed == 0 && bad_speed)) continue;
-      const Point3 x = to_point3(points.position_of(p));
-      problem = fmt::format(
-          "soil {}: {} at ({:.6g}, {:.6g}, {:.6g}) m, t = {:.6g} s (point {}: speed {:.4g} m/s, "
-          "porosity {:.4g}, "
-          "pore pressure {:.4g} Pa)",
-          options_.bodies[b].name,
-          bad_porosity ? "the pores closed (porosity <= 0)" : "the velocity diverged", x[0], x[1],
-          x[2], time_, points.id[p], std::sqrt(speed2), porosity, points.pore_pressure[p]);
-    }
-  }
-  throw_divergence_if_any(grid_->comm(), problem);
-  throw DivergenceError(fmt::format("soil: motion out of range at t = {:.6g} s", time_));
-}
-
 template <int D>
 void SoilSolver<D>::solid_fraction(CellField<D>& fraction, CellField<D>& resistance) {
   if (travelled_ > longest_travel) redistribute();
@@ -473,36 +330,6 @@ void SoilSolver<D>::set_pore_pressure(const CellField<D>& pressure) {
       for (std::size_t p = 0; p < points.size(); ++p)
         points.pore_pressure[p] += (*excess)(to_point3(points.position_of(p)), 0.0);
   }
-}
-
-template <int D>
-typename SoilSolver<D>::Totals SoilSolver<D>::totals() const {
-  std::array<double, 5 + D> mine{};
-  double total_grain_mass = 0.0;
-  for (std::size_t b = 0; b < points_.size(); ++b) {
-    const auto& points = points_[b];
-    const BodyConstants& body = constants_[b];
-    ExactSum grain_mass(body.grain_density * grid_->cell_volume());
-    for (std::size_t p = 0; p < points.size(); ++p) {
-      const double grains = points.grain_mass[p];
-      const double water = (points.volume[p] - grains / body.grain_density) * body.water_density;
-      grain_mass.add(grains);
-      mine[1] += water;
-      for (int a = 0; a < D; ++a) {
-        const double v = points.velocity[a][p], vw = points.water_velocity[a][p];
-        mine[2] += 0.5 * (grains * v * v + water * vw * vw);
-        mine[static_cast<std::size_t>(5 + a)] += grains * v + water * vw;
-      }
-    }
-    mine[4] += static_cast<double>(points.size());
-    total_grain_mass += grain_mass.over_ranks(grid_->comm());
-  }
-  mine[3] = removed_grain_mass_;
-  std::array<double, 5 + D> all{};
-  MPI_Allreduce(mine.data(), all.data(), 5 + D, MPI_DOUBLE, MPI_SUM, grid_->comm());
-  Totals totals{total_grain_mass, all[1], all[2], {}, all[3], static_cast<long long>(all[4])};
-  for (int a = 0; a < D; ++a) totals.momentum[a] = all[static_cast<std::size_t>(5 + a)];
-  return totals;
 }
 
 template class SoilSolver<2>;

@@ -80,7 +80,6 @@ class SoilSolver {
  private:
   IndexBox<D> solved_faces(int axis) const;
   bool exchanges_halos() const;
-  std::vector<std::array<double, 4>> step_bounds() const;
   void gather_nodes();
   void solve_nodes(double dt);
   void solve_face(const NodeSums& sums, double dt, double face_volume, NodeMotion& motion) const;
