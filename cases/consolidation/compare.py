@@ -68,7 +68,7 @@ def load_of(case, gravity, height):
         top = max(body["shape"]["box"]["upper"][1] for body in bodies)
         return case["water"]["density"] * gravity * (top - height), case["coupling"].get("ramp", 0.0)
     pressure = case["load"][0]["pressure"]
-    if isinstance(pressure, str):  # "400000 * (t < 0.05 ? 0.5 * (1 - cos(pi * t / 0.05)) : 1)"
+    if isinstance(pressure, str):  # "400000 * (t < 0.036 ? 0.5 * (1 - cos(pi * t / 0.036)) : 1)"
         ramp = re.search(r"t\s*<\s*([0-9.eE+-]+)", pressure)
         return float(re.match(r"[0-9.eE+-]+", pressure)[0]), float(ramp[1]) if ramp else 0.0
     return float(pressure), 0.0

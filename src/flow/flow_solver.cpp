@@ -8,6 +8,7 @@
 
 #include "base/errors.hpp"
 #include "flow/flow_checks.hpp"
+#include "flow/wall_friction.hpp"
 #include "numerics/loops.hpp"
 #include "parallel/collective_error.hpp"
 
@@ -46,7 +47,8 @@ FlowSolver<D>::FlowSolver(const Grid<D>& grid, const FlowOptions& options)
       no_storage_(grid, "storage", "1/(Pa s)"),
       flux_(grid, "flux", "m/s"),
       carried_(grid, "carried water", "1"),
-      mobility_(grid, "mobility", "m2 s/kg") {}
+      mobility_(grid, "mobility", "m2 s/kg"),
+      wall_friction_(grid, "wall friction", "Pa s/m2") {}
 
 /// Ghosts and what follows from W, theta and v.
 template <int D>
@@ -195,7 +197,9 @@ void FlowSolver<D>::advance(const PorousMedium<D>& medium, double dt) {
   transport(medium, dt);
   update_derived();
   projection_.find_surface(water_, porosity_, saturation_, interface_);
-  predictor_.advance(medium, porosity_, dt, velocity_, mobility_);
+  if (options_.wall_law == WallLaw::werner_wengle)
+    find_wall_friction(*grid_, options_, water_, velocity_, wall_friction_);
+  predictor_.advance(medium, porosity_, wall_friction_, dt, velocity_, mobility_);
   find_target(medium, dt);
   last_solve_ = projection_.project(porosity_, mobility_, target_, medium.give_way, pressure_,
                                     velocity_, options_.pressure_tolerance / dt);

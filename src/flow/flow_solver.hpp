@@ -113,7 +113,7 @@ class FlowSolver {
   CellField<D> water_, porosity_, pressure_, saturation_;
   FaceVector<D> velocity_;
   CellField<D> old_water_, new_porosity_, target_, no_storage_;
-  FaceVector<D> flux_, carried_, mobility_;
+  FaceVector<D> flux_, carried_, mobility_, wall_friction_;
   double initial_volume_ = 0.0, outflow_ = 0.0;
   std::int64_t step_ = 0;
   SolveReport last_solve_;

@@ -29,6 +29,10 @@ struct PorousGround {
   double keulegan_carpenter = 0.0;    ///< KC [-]; 0: steady flow, no KC term
 };
 
+/// Friction of no-slip walls. resolved: the viscous profile between the wall and the first row of
+/// velocities; werner_wengle: where that row lies beyond the viscous sublayer, the 1/7 power law.
+enum class WallLaw { resolved, werner_wengle };
+
 struct FlowOptions {
   double density = 1000.0;      ///< [kg/m3]
   double viscosity = 1.002e-3;  ///< dynamic, [Pa s]
@@ -36,7 +40,8 @@ struct FlowOptions {
   std::vector<PorousGround> porous;
   double courant = 0.4;  ///< of the interface's Courant number bound (NUMERICS B2)
   double pressure_tolerance =
-      1e-10;              ///< bound on the largest residual divergence times the step [-]
+      1e-10;  ///< bound on the largest residual divergence times the step [-]
+  WallLaw wall_law = WallLaw::resolved;
   bool advection = true;  ///< momentum advection (off: Stokes flow, for tests)
 };
 

@@ -69,8 +69,9 @@ double seepage_squared(const Grid<D>& grid, int component, const FaceVector<D>& 
 }  // namespace
 
 template <int D>
-void Predictor<D>::advance(const PorousMedium<D>& medium, const CellField<D>& porosity, double dt,
-                           FaceVector<D>& velocity, FaceVector<D>& mobility) {
+void Predictor<D>::advance(const PorousMedium<D>& medium, const CellField<D>& porosity,
+                           const FaceVector<D>& wall_friction, double dt, FaceVector<D>& velocity,
+                           FaceVector<D>& mobility) {
   const Grid<D>& grid = *grid_;
   const double* theta = porosity.data();
   for (int a = 0; a < D; ++a) {
@@ -94,11 +95,12 @@ void Predictor<D>::advance(const PorousMedium<D>& medium, const CellField<D>& po
     const double gravity = grid.gravity()[a];
     const double* viscous = acceleration_[a].data();
     const double* grains = medium.grain_velocity[a].data();
+    const double* friction = wall_friction[a].data();
     double* v = velocity[a].data();
     double* m = mobility[a].data();
     for_each_offset(grid, bounding_faces(grid, a), [&](std::ptrdiff_t at) {
       const double resistance = m[at];
-      m[at] = dt / (density_ + dt * resistance);
+      m[at] = dt / (density_ + dt * (resistance + friction[at]));
       v[at] = (density_ * (v[at] + dt * (gravity + viscous[at])) + dt * resistance * grains[at]) *
               (m[at] / dt);
     });

@@ -58,6 +58,9 @@ void read_flow_solver(Section& root, FlowOptions& flow, std::optional<double> co
           "the bound on what the pressure solver leaves of the divergence, above 0, at most 0.01"),
       flow.pressure_tolerance);
   flow.advection = section.flag("advection", flow.advection);
+  flow.wall_law = section.choice<WallLaw>(
+      "wall_law", {{"resolved", WallLaw::resolved}, {"werner-wengle", WallLaw::werner_wengle}},
+      flow.wall_law);
   section.finish();
 }
 

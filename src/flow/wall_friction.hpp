@@ -1,0 +1,21 @@
+#pragma once
+/// Friction of closed walls whose boundary layer is thinner than a cell.
+#include "flow/options.hpp"
+#include "grid/field.hpp"
+
+namespace mudlark {
+
+/// Shear stress [Pa] of a smooth wall on water that passes with the mean tangential speed [m/s] of
+/// a layer of the given thickness [m]: the law of Werner & Wengle (1991, Eqs. 8-9), integrated over
+/// the layer: u+ = y+ below y+ = 11.81, u+ = 8.3 y+^(1/7) above. Viscosity is kinematic [m2/s].
+double werner_wengle_stress(double speed, double thickness, double density, double viscosity);
+
+/// Sets the resistance [Pa s/m2] per volume of water, -resistance * v [N/m3], that no-slip walls
+/// give to the first row of faces along them beyond the linear profile that the viscous term
+/// resolves; zero elsewhere. Where the water is a film thinner than a cell, the film carries the
+/// stress. `water` is the water volume per cell volume [-]; ghosts of the inputs valid.
+template <int D>
+void find_wall_friction(const Grid<D>& grid, const FlowOptions& options, const CellField<D>& water,
+                        const FaceVector<D>& velocity, FaceVector<D>& resistance);
+
+}  // namespace mudlark
