@@ -37,6 +37,8 @@ void read_soil_solver(Section& root, SoilOptions& soil, std::optional<double> co
   soil.load_form = section.choice<LoadForm>(
       "load_form", {{"virtual-stress", LoadForm::virtual_stress}, {"facets", LoadForm::facets}},
       soil.load_form);
+  if (section.has("body_acceleration"))
+    soil.body_acceleration = section.varying_per_axis("body_acceleration", quantity::acceleration);
   section.finish();
 }
 

@@ -63,6 +63,8 @@ struct SoilOptions {
   double courant = 0.5;
   std::optional<double> max_step;  ///< [s]
   LoadForm load_form = LoadForm::virtual_stress;
+  /// Acceleration beside gravity, x y z [m/s2], of grains and pore water.
+  std::optional<std::array<Varying, 3>> body_acceleration;
 };
 
 }  // namespace mudlark

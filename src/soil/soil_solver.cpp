@@ -8,6 +8,7 @@
 
 #include "base/errors.hpp"
 #include "materials/registry.hpp"
+#include "soil/body_force.hpp"
 #include "soil/kinematics.hpp"
 #include "soil/redistribute.hpp"
 #include "soil/seeding.hpp"
@@ -158,6 +159,7 @@ void SoilSolver<D>::gather_nodes() {
                    facets ? SurfacePressure<D>{} : surface, sums_);
   if (exchanges_halos()) halo_.add_to_owners(as_doubles<NodeSums, D>(sums_), node_sums);
   fold_into_domain(*grid_, active_, sums_);
+  add_body_force(*grid_, options_, time_, active_, sums_);
   if (facets) {
     for_each(active_, [&](const Index<D>& cell) { occupied_[cell] = 0.0; });
     for (const auto& points : points_) mark_occupied(*grid_, points, occupied_);
