@@ -25,7 +25,9 @@ ExitCode check_command(const CheckArguments& arguments);
 
 ExitCode cases_command(const std::string& name);
 ExitCode info_command(const std::string& results);
-ExitCode plot_command(const std::string& results, const std::vector<std::string>& arguments);
+/// The Python module mudlark.<module> on a results folder: plot, report.
+ExitCode python_command(const std::string& module, const std::string& results,
+                        const std::vector<std::string>& arguments);
 
 /// Version, commit and libraries.
 std::string version_text();

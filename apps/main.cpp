@@ -77,6 +77,11 @@ ExitCode command_line(int argc, char** argv) {
                                       "python3 -m mudlark.plot)");
   plot->add_option("folder", results, "Results folder")->required()->type_name("DIR");
   plot->prefix_command();
+  CLI::App* report = app.add_subcommand("report",
+                                        "One HTML page of a results folder (further arguments go "
+                                        "to python3 -m mudlark.report)");
+  report->add_option("folder", results, "Results folder")->required()->type_name("DIR");
+  report->prefix_command();
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -86,7 +91,8 @@ ExitCode command_line(int argc, char** argv) {
   if (app.got_subcommand("check")) return check_command(check);
   if (app.got_subcommand(cases)) return cases_command(name);
   if (app.got_subcommand(info)) return info_command(results);
-  return plot_command(results, plot->remaining());
+  if (app.got_subcommand(report)) return python_command("report", results, report->remaining());
+  return python_command("plot", results, plot->remaining());
 }
 
 }  // namespace

@@ -7,7 +7,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from mudlark import picture, plot
+from mudlark import picture, plot, report
 from mudlark.results import Results, ResultsError
 
 dimension, folder = int(sys.argv[1]), Path(sys.argv[2])
@@ -49,6 +49,10 @@ assert plot.main([str(folder)]) == 0
 assert plot.main([str(folder), "--field", "velocity", "--time", "0.5", "--out", str(folder / "one.png")]) == 0
 assert plot.main([str(folder), "--gauge", "top", "--out", str(folder / "two.png")]) == 0
 assert plot.main([str(folder), "--field", "nonsense"]) == 1
+assert report.main([str(folder)]) == 0
+page = (folder / "report.html").read_text()
+assert page.count("data:image/png;base64,") >= 3 and "<h2>Gauges</h2>" in page
+assert report.main([str(folder / "plots")]) == 1
 assert picture.main([str(folder), str(folder / "three.png")]) == 0
 for file in ("plots/state.png", "plots/gauges.png", "one.png", "two.png", "three.png"):
     assert (folder / file).read_bytes()[:8] == b"\x89PNG\r\n\x1a\n", file
