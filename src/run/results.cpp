@@ -69,6 +69,22 @@ class PointTable {
   std::array<std::vector<double>, 5 * D + 10> columns_;
 };
 
+/// Work by name [J]; what is left between them is what transfers and time steps take.
+template <int D>
+std::vector<std::pair<std::string, double>> soil_energy(SoilSolver<D>& soil) {
+  const SoilEnergy& energy = soil.energy();
+  const double kinetic = soil.totals().kinetic_energy;
+  const double scheme = energy.external - energy.internal - energy.drag - energy.damping -
+                        (kinetic - energy.start_kinetic);
+  return {{"kinetic", kinetic},
+          {"kinetic at start", energy.start_kinetic},
+          {"external work", energy.external},
+          {"internal work", energy.internal},
+          {"drag", energy.drag},
+          {"damping", energy.damping},
+          {"taken by the scheme", scheme}};
+}
+
 }  // namespace
 
 template <int D>
@@ -164,6 +180,7 @@ Summary Results<D>::describe(World<D>& world) const {
                            {"mapping", effort.mapping},
                            {"output", effort.output}};
   summary.conservation_errors = conservation_errors(world);
+  if (world.soil()) summary.soil_energy = soil_energy(*world.soil());
   for (const GaugeWriter& gauge : gauges_)
     summary.gauges.push_back({gauge.name(), gauge.columns(), gauge.extremes()});
   summary.peak_memory_bytes = peak_memory(world.grid().comm());

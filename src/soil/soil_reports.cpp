@@ -10,6 +10,18 @@
 
 namespace mudlark {
 
+/// Adds the work of the open outer step, once per step whoever asks, so that sums are the same in a
+/// resumed run.
+template <int D>
+void SoilSolver<D>::settle_energy() {
+  const std::array<double, 4> mine{recent_energy_.external, recent_energy_.internal,
+                                   recent_energy_.drag, recent_energy_.damping};
+  std::array<double, 4> all{};
+  MPI_Allreduce(mine.data(), all.data(), 4, MPI_DOUBLE, MPI_SUM, grid_->comm());
+  energy_ += SoilEnergy{0.0, all[0], all[1], all[2], all[3]};
+  recent_energy_ = SoilEnergy{};
+}
+
 /// Keeps where and in which state the first point that a law could not integrate was.
 template <int D>
 void SoilSolver<D>::note_failed_stress(std::size_t body, const StressResult& result) {
@@ -85,6 +97,8 @@ typename SoilSolver<D>::Totals SoilSolver<D>::totals() const {
   return totals;
 }
 
+template void SoilSolver<2>::settle_energy();
+template void SoilSolver<3>::settle_energy();
 template void SoilSolver<2>::note_failed_stress(std::size_t, const StressResult&);
 template void SoilSolver<3>::note_failed_stress(std::size_t, const StressResult&);
 template void SoilSolver<2>::report_bad_point(double, std::size_t) const;

@@ -81,6 +81,8 @@ void SoilSolver<D>::initialise() {
   for (std::size_t b = 0; b < points_.size(); ++b)
     initialise_material_state(points_[b], *laws_[b], options_.bodies[b].strain,
                               options_.bodies[b].porosity);
+  energy_ = SoilEnergy{};
+  energy_.start_kinetic = totals().kinetic_energy;
   redistribute();
 }
 
@@ -128,6 +130,7 @@ double SoilSolver<D>::stable_step() const {
 
 template <int D>
 void SoilSolver<D>::begin_step(double time, double length, const FluidLoad<D>* water) {
+  settle_energy();
   redistribute();
   time_ = time;
   length_ = length;
@@ -242,11 +245,13 @@ void SoilSolver<D>::solve_nodes(double dt) {
   }
   mirror_motion(*grid_, active_, motion_);
   for (int d = 0; d < D; ++d) {  // after the walls have come to rest
+    const NodeSums* sums = sums_[static_cast<std::size_t>(d)].data();
     const NodeMotion* motion = motion_[static_cast<std::size_t>(d)].data();
     double* mean = mean_velocity_[d].data();
     for_each(solved_faces(d), [&](const Index<D>& face) {
       const std::ptrdiff_t at = grid_->offset(face);
       mean[at] += dt / length_ * motion[at].grain_velocity;
+      add_face_work(sums[at], motion[at], options_.water_density, dt, recent_energy_);
     });
   }
   if (exchanges_halos()) halo_.exchange(as_doubles<NodeMotion, D>(motion_), node_motions);
@@ -270,6 +275,8 @@ void SoilSolver<D>::update_points(double dt) {
     const bool wet = body.water_density > 0.0;
     grid_to_points(*grid_, motion_, options_.kernel, options_.transfer, options_.flip_fraction, dt,
                    wet, points, point_motion_);
+    const double work = internal_work(points, point_motion_, dt, wet);
+    recent_energy_.external += work;  // what the faces' work had taken off
     for (std::size_t p = 0; p < points.size(); ++p) {
       const double* g = point_motion_.gradient.data() + p * D * D;
       double stretch;
@@ -290,6 +297,7 @@ void SoilSolver<D>::update_points(double dt) {
     const StressResult result =
         update_stress(points, point_motion_.gradient, *laws_[b], options_.bodies[b].strain,
                       {dt, time_, grid_->smallest_spacing()});
+    recent_energy_.internal += 0.5 * (work + internal_work(points, point_motion_, dt, wet));
     if (result.failed > 0) note_failed_stress(b, result);
     failed += result.failed;
   }

@@ -6,6 +6,7 @@
 
 #include "grid/halo.hpp"
 #include "materials/soil_model.hpp"
+#include "soil/energy.hpp"
 #include "soil/fluid_load.hpp"
 #include "soil/kinematics.hpp"
 #include "soil/nodes.hpp"
@@ -70,8 +71,16 @@ class SoilSolver {
   };
   Totals totals() const;  ///< over all ranks; collective
 
+  /// Work since the start, over all ranks; collective.
+  const SoilEnergy& energy() {
+    settle_energy();
+    return energy_;
+  }
+
   template <class Archive>
   void archive(Archive& a) {
+    settle_energy();
+    energy_.archive(a);
     for (std::size_t b = 0; b < points_.size(); ++b) points_[b].archive(a, options_.bodies[b].name);
     a.number("soil/removed grain mass", removed_grain_mass_);
     a.number("soil/time", time_);
@@ -84,6 +93,7 @@ class SoilSolver {
   void solve_nodes(double dt);
   void solve_face(const NodeSums& sums, double dt, double face_volume, NodeMotion& motion) const;
   void update_points(double dt);
+  void settle_energy();
   void note_failed_stress(std::size_t body, const StressResult& result);
   void report_bad_point(double largest_speed, std::size_t failed) const;
 
@@ -104,6 +114,8 @@ class SoilSolver {
   double time_ = 0.0;
   double travelled_ = 0.0;  ///< bound on how far any point moved since redistribute(), in cells
   double removed_grain_mass_ = 0.0;
+  SoilEnergy energy_;          ///< up to the open outer step, over all ranks
+  SoilEnergy recent_energy_;   ///< of this rank since then
   std::string failed_stress_;  ///< the point that a law could not integrate, in words
 };
 
