@@ -28,6 +28,8 @@ inline constexpr Quantity acceleration{"an acceleration", "m/s2", "\"9.81 m/s2\"
 inline constexpr Quantity permeability{"an intrinsic permeability", "m2", "\"1e-10 m2\""};
 inline constexpr Quantity forchheimer{"a Forchheimer coefficient B of (A + B|w|) w", "kg/m4",
                                       "\"5e5 kg/m4\""};
+/// Plain numbers are degrees, as in every soil report; the readers turn them into radians.
+inline constexpr Quantity angle{"an angle", "degree", "\"30 degree\""};
 inline constexpr Quantity number{"a number without unit", "1", "0.4"};
 }  // namespace quantity
 

@@ -34,6 +34,8 @@ void read_law(Section& soil, SoilBody& body);
 /// Keys that several laws share.
 double read_young_modulus(Section& section);  ///< [Pa]
 double read_poisson_ratio(Section& section);  ///< [-]
+/// Laws that yield at a constant or softening strength.
+SoilLawOptions read_mohr_coulomb(Section& law);
 void read_loads(Section& root, CaseOptions& options);
 void read_solvers(Section& root, CaseOptions& options, std::optional<double> courant);
 void read_coupling(Section& root, CaseOptions& options);

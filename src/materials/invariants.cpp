@@ -1,7 +1,6 @@
 #include "materials/invariants.hpp"
 
 #include <algorithm>
-#include <numbers>
 #include <utility>
 
 namespace mudlark {
@@ -20,10 +19,19 @@ Vector applied(const SymTensor& t, const Vector& v) {
           t.zx * v[0] + t.yz * v[1] + t.zz * v[2]};
 }
 
-/// cos(3 theta) of Lode's angle, 0 <= theta <= pi/3 from the largest value; J2 > 0.
-double lode_cosine(double j2, double j3) {
+/// The principal value of a deviator that lies farthest from the other two, which is well
+/// conditioned whatever they are: 2 sqrt(J2/3) c with 4 c^3 - 3 c = |J3|/2 (3/J2)^1.5 and
+/// sqrt(3)/2 <= c <= 1, by Newton from the parabola through three points; of the sign of J3. J2 >
+/// 0.
+double farthest_value(double j2, double j3) {
   const double radius = std::sqrt(j2 / 3.0);
-  return std::clamp(0.5 * j3 / (radius * radius * radius), -1.0, 1.0);
+  const double x = std::min(0.5 * std::abs(j3) / (radius * radius * radius), 1.0);
+  double c = 0.8660254037844386 + x * (0.1607198 - 0.0267452 * x);  // x = 0, 1/2, 1
+  for (int i = 0; i < 3; ++i) {
+    const double square = c * c;
+    c = (8.0 * square * c + x) / (12.0 * square - 3.0);
+  }
+  return std::copysign(2.0 * radius * c, j3);
 }
 
 /// Is the deviator lost in the round-off of the mean value?
@@ -36,8 +44,8 @@ std::pair<Vector, Vector> plane_across(const SymTensor& s, double value) {
                                 Vector{s.zx, s.yz, s.zz - value}};
   std::array<double, 3> size{};
   for (std::size_t c = 0; c < 3; ++c) size[c] = dot(columns[c], columns[c]);
-  const auto first =
-      static_cast<std::size_t>(std::max_element(size.begin(), size.end()) - size.begin());
+  const std::size_t first =
+      size[0] >= size[1] ? (size[0] >= size[2] ? 0 : 2) : (size[1] >= size[2] ? 1 : 2);
   const Vector one = scaled(1.0 / std::sqrt(size[first]), columns[first]);
   Vector two{};
   double largest = 0.0;
@@ -55,11 +63,11 @@ PrincipalValues principal_values(const SymTensor& t) {
   if (is_plane(t)) return PrincipalAxes(t).values();
   const double mean = mean_of(t), j2 = second_invariant(t);
   if (is_isotropic(j2, mean)) return {mean, mean, mean};
-  const double size = 2.0 * std::sqrt(j2 / 3.0);
-  const double angle = std::acos(lode_cosine(j2, third_invariant(t))) / 3.0;
-  const double upper = size * std::cos(angle);
-  const double lower = size * std::cos(angle + 2.0 / 3.0 * std::numbers::pi);
-  return {mean + upper, mean - upper - lower, mean + lower};
+  const double far = farthest_value(j2, third_invariant(t));
+  const double others = mean - 0.5 * far;
+  const double radius = std::sqrt(std::max(j2 - 0.75 * far * far, 0.0));
+  if (far > 0.0) return {mean + far, others + radius, others - radius};
+  return {others + radius, others - radius, mean + far};
 }
 
 void PrincipalAxes::set_space(const SymTensor& t) {
@@ -69,9 +77,7 @@ void PrincipalAxes::set_space(const SymTensor& t) {
     return;
   }
   const SymTensor s = deviator_of(t);
-  const double cosine = lode_cosine(j2, determinant(s));
-  const double far = std::copysign(
-      2.0 * std::sqrt(j2 / 3.0) * std::cos(std::acos(std::abs(cosine)) / 3.0), cosine);
+  const double far = farthest_value(j2, determinant(s));
   const auto [one, two] = plane_across(s, far);
   const Vector image = applied(s, one), other = applied(s, two);
   const double a = dot(one, image), b = dot(two, image), c = dot(two, other);

@@ -30,8 +30,8 @@ inline bool is_plane(const SymTensor& t) { return t.xy == 0.0 && t.yz == 0.0; }
 /// Three principal values, the largest first.
 using PrincipalValues = std::array<double, 3>;
 
-/// Principal values without directions. In space by Lode's angle: exact to round-off of the size of
-/// the deviator, but two nearly equal values differ by its square root (1e-8).
+/// Principal values without directions. In space two nearly equal values differ by the square root
+/// of round-off (1e-8 of the deviator).
 PrincipalValues principal_values(const SymTensor& t);
 
 /// Principal values and directions of a tensor, and the way back. In space after Scherzinger &

@@ -1,5 +1,8 @@
 #pragma once
 /// Parameters of the soil laws, as plain data (SI units).
+#include <cmath>
+#include <limits>
+#include <optional>
 #include <variant>
 
 namespace mudlark {
@@ -15,6 +18,34 @@ struct LinearElasticOptions {
   double young_modulus = 0.0;  ///< [Pa], effective
   double poisson_ratio = 0.0;  ///< [-], effective
 };
-using SoilLawOptions = std::variant<LinearElasticOptions>;
+/// Exponential fall of strength with plastic engineering shear strain g, measured as slip h g
+/// across a band one cell wide when a length is given: then the work spent until the strength is
+/// gone does not depend on the cell size h.
+struct Softening {
+  double strain = 0.1;  ///< g_s, at which 1/e of what can be lost is left [-]
+  double length = 0.0;  ///< l [m], the width of band that g_s was measured at; 0: g alone decides
+
+  /// What is left of what can be lost [-].
+  double share(double plastic_shear, double cell_size) const {
+    const double wider = length > 0.0 ? cell_size / length : 1.0;
+    return std::exp(-plastic_shear / strain * wider);
+  }
+};
+
+struct MohrCoulombOptions {
+  double young_modulus = 0.0;    ///< [Pa], effective
+  double poisson_ratio = 0.0;    ///< [-], effective
+  double cohesion = 0.0;         ///< c [Pa]
+  double friction_angle = 0.0;   ///< phi [rad]
+  double dilatancy_angle = 0.0;  ///< psi [rad]
+  double tension_cutoff =
+      std::numeric_limits<double>::infinity();  ///< largest principal stress [Pa]
+  struct Residual {
+    double cohesion = 0.0, friction_angle = 0.0, dilatancy_angle = 0.0;  ///< [Pa], [rad]
+    Softening softening{};
+  };
+  std::optional<Residual> residual{};
+};
+using SoilLawOptions = std::variant<LinearElasticOptions, MohrCoulombOptions>;
 
 }  // namespace mudlark

@@ -101,10 +101,12 @@ double stable_step(const Grid<D>& grid, const SoilOptions& options,
     const double least_stretch = -bounds[b][1], speed2 = bounds[b][2];
     if (speed2 < 0.0) continue;
     // Tangent of a law linear in logarithmic strain, seen in the compressed state (Kirchhoff: (M -
-    // tau)/J). Rates carry their tangent in the state.
+    // tau)/J). Rates carry their tangent in the state. Soil that has swollen as a whole may have
+    // yielded: its stretch says nothing of its stress.
+    const double stretch = std::min(least_stretch, 1.0);
     const double stiffer = options.bodies[b].strain == StrainMeasure::jaumann
                                ? 1.0
-                               : (1.0 - std::log(least_stretch)) / least_stretch;
+                               : (1.0 - std::log(stretch)) / stretch;
     const double modulus = bounds[b][3] * stiffer;
     const double n = std::clamp(-bounds[b][0], 0.01, 0.99);
     const double wave2 = fastest_wave_squared(modulus, n, body.grain_density, body.water_density,
