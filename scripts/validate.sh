@@ -17,12 +17,17 @@ misses=()
 for name in "${names[@]}"; do
   results=results/validation/$name
   finding=docs/validation/$name.md
-  for case in cases/"$name"/*.toml; do
-    echo "Running $case"
-    "$program" run "$case" -o "$results/$(basename "$case" .toml)"
-  done
+  runs=()
+  if grep -q '"--run"' "cases/$name/compare.py"; then
+    runs=(--run "$program")  # it knows which variants of its case to run
+  else
+    for case in cases/"$name"/*.toml; do
+      echo "Running $case"
+      "$program" run "$case" -o "$results/$(basename "$case" .toml)"
+    done
+  fi
   code=0
-  numbers=$(/usr/bin/python3 "cases/$name/compare.py" --results "$results" \
+  numbers=$(/usr/bin/python3 "cases/$name/compare.py" "${runs[@]}" --results "$results" \
     --picture "docs/validation/$name.png") || code=$?
   verdict="within its tolerances"
   if [[ $code -ne 0 ]]; then verdict="**MISSES its tolerances**"; misses+=("$name"); fi

@@ -119,6 +119,8 @@ void read_loads(Section& root, CaseOptions& options) {
     SurfaceLoad load;
     load.name = read_name(section, names);
     load.pressure = section.varying("pressure", quantity::pressure, {});
+    load.on = section.choice<LoadedPhase>(
+        "on", {{"skeleton", LoadedPhase::skeleton}, {"water", LoadedPhase::water}}, load.on);
     section.finish();
     options.soil->loads.push_back(std::move(load));
   }

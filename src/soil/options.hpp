@@ -38,10 +38,15 @@ struct SoilBody {
   std::array<Varying, 3> initial_velocity{};  ///< [m/s] per axis, grains and pore water alike
 };
 
-/// Pressure on the free surface of the soil, carried by the skeleton; positive pushes inwards.
+/// What a load presses on. skeleton: the pore water drains at the surface at zero pressure; water:
+/// the load is the pressure of water over the soil, and pore water drains against it.
+enum class LoadedPhase { skeleton, water };
+
+/// Pressure on the free surface of the soil; positive pushes inwards.
 struct SurfaceLoad {
   std::string name;
   Varying pressure;  ///< [Pa]
+  LoadedPhase on = LoadedPhase::skeleton;
 };
 
 enum class Kernel { linear, quadratic, composite };

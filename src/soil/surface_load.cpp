@@ -10,8 +10,13 @@ SurfaceLoads<D>::SurfaceLoads(const Grid<D>& grid, std::vector<SurfaceLoad> load
       loads_(std::move(loads)),
       loads_begin_(grid, "load", "Pa"),
       loads_end_(grid, "load", "Pa"),
+      water_begin_(grid, "load on water", "Pa"),
+      water_end_(grid, "load on water", "Pa"),
       traction_(grid, "surface pressure", "Pa"),
-      drained_(grid, "drainage pressure", "Pa") {}
+      drained_(grid, "drainage pressure", "Pa") {
+  on_water_ = std::any_of(loads_.begin(), loads_.end(),
+                          [](const SurfaceLoad& load) { return load.on == LoadedPhase::water; });
+}
 
 template <int D>
 void SurfaceLoads<D>::begin_step(double begin, double length, const FluidLoad<D>* water,
@@ -25,21 +30,25 @@ void SurfaceLoads<D>::begin_step(double begin, double length, const FluidLoad<D>
   if (loads_.empty()) return;
   for_each(box_, [&](const Index<D>& cell) {
     const Point3 place = to_point3(grid_->cell_centre(cell));
-    double first = 0.0, last = 0.0;
+    double first = 0.0, last = 0.0, water_first = 0.0, water_last = 0.0;
     for (const SurfaceLoad& load : loads_) {
-      first += load.pressure(place, begin);
-      last += load.pressure(place, begin + length);
+      const double now = load.pressure(place, begin), then = load.pressure(place, begin + length);
+      first += now;
+      last += then;
+      if (load.on == LoadedPhase::water) water_first += now, water_last += then;
     }
     loads_begin_[cell] = first;
     loads_end_[cell] = last;
-    steady_ = steady_ && first == last;
+    water_begin_[cell] = water_first;
+    water_end_[cell] = water_last;
+    steady_ = steady_ && first == last && water_first == water_last;
   });
 }
 
 template <int D>
 SurfacePressure<D> SurfaceLoads<D>::at(double time) {
   if (!loaded()) return {};
-  const bool drains = water_ && water_->outlet != PoreOutlet::at_zero_pressure;
+  const bool against_flow = water_ && water_->outlet != PoreOutlet::at_zero_pressure;
   if (!steady_ || !filled_) {
     const double late = length_ > 0.0 ? std::clamp((time - begin_) / length_, 0.0, 1.0) : 1.0;
     const double early = 1.0 - late;
@@ -49,11 +58,12 @@ SurfacePressure<D> SurfaceLoads<D>::at(double time) {
       const double water =
           water_ ? early * water_->pressure_begin[cell] + late * water_->pressure_end[cell] : 0.0;
       traction_[cell] = load + water;
-      drained_[cell] = water;
+      drained_[cell] = (against_flow ? water : 0.0) +
+                       (on_water_ ? early * water_begin_[cell] + late * water_end_[cell] : 0.0);
     });
     filled_ = true;
   }
-  return {&traction_, drains ? &drained_ : nullptr};
+  return {&traction_, against_flow || on_water_ ? &drained_ : nullptr};
 }
 
 template <int D>

@@ -32,7 +32,8 @@ class SurfaceLoads {
   double begin_ = 0.0, length_ = 0.0;
   IndexBox<D> box_{};
   bool steady_ = false, filled_ = false;
-  CellField<D> loads_begin_, loads_end_, traction_, drained_;
+  bool on_water_ = false;  ///< does any load press on the pore water?
+  CellField<D> loads_begin_, loads_end_, water_begin_, water_end_, traction_, drained_;
 };
 
 /// The load by facets, Eqs. 10-15 of the paper, on this grid: between a cell with soil and one
