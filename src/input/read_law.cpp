@@ -56,9 +56,13 @@ void read_law(Section& soil, SoilBody& body) {
   const Report& report = section.reading().report;
   const std::size_t before = report.size();
   const LawReader reader = section.choice<LawReader>(
-      "type", {{"linear-elastic", &read_linear_elastic}, {"mohr-coulomb", &read_mohr_coulomb}}, {},
-      {"neo-hookean", "drucker-prager", "modified-cam-clay", "sekiguchi-ohta", "tresca",
-       "von-mises", "hypoplastic", "sanisand", "umat", "mu-i", "newtonian", "bingham"});
+      "type",
+      {{"linear-elastic", &read_linear_elastic},
+       {"modified-cam-clay", &read_modified_cam_clay},
+       {"mohr-coulomb", &read_mohr_coulomb}},
+      {},
+      {"neo-hookean", "drucker-prager", "sekiguchi-ohta", "tresca", "von-mises", "hypoplastic",
+       "sanisand", "umat", "mu-i", "newtonian", "bingham"});
   if (reader) body.law = reader(section);
   const bool good = report.size() == before;
   const bool yields = good && reader && make_soil_model(body.law)->yields();

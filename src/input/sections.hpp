@@ -35,6 +35,7 @@ void read_law(Section& soil, SoilBody& body);
 double read_young_modulus(Section& section);  ///< [Pa]
 double read_poisson_ratio(Section& section);  ///< [-]
 /// Laws that yield at a constant or softening strength.
+SoilLawOptions read_modified_cam_clay(Section& law);
 SoilLawOptions read_mohr_coulomb(Section& law);
 void read_loads(Section& root, CaseOptions& options);
 void read_solvers(Section& root, CaseOptions& options, std::optional<double> courant);

@@ -5,6 +5,8 @@
 #include <optional>
 #include <variant>
 
+#include "materials/critical_state_options.hpp"
+
 namespace mudlark {
 
 /// How strain is measured against stress. small: Cauchy stress linear in the displacement gradient;
@@ -46,6 +48,7 @@ struct MohrCoulombOptions {
   };
   std::optional<Residual> residual{};
 };
-using SoilLawOptions = std::variant<LinearElasticOptions, MohrCoulombOptions>;
+using SoilLawOptions =
+    std::variant<LinearElasticOptions, MohrCoulombOptions, ModifiedCamClayOptions>;
 
 }  // namespace mudlark
