@@ -51,13 +51,45 @@ void law_batch(benchmark::State& state, int dimension, SoilLawOptions (*options)
   set_counters(state, size, 18.0 * sizeof(double));
 }
 
+SoilLawOptions tresca() { return TrescaOptions{2e7, 0.45, 1.5e4, {}}; }
+SoilLawOptions von_mises() { return VonMisesOptions{2e7, 0.45, 1.5e4, {}}; }
+SoilLawOptions drucker_prager() {
+  DruckerPragerOptions options;
+  options.young_modulus = 2e7, options.poisson_ratio = 0.3;
+  options.cohesion = 5e3, options.friction_angle = 0.5, options.dilatancy_angle = 0.1;
+  return options;
+}
+SoilLawOptions mu_i() {
+  MuIOptions options;
+  options.young_modulus = 2e7, options.poisson_ratio = 0.3, options.grain_diameter = 1e-3;
+  return options;
+}
+SoilLawOptions newtonian() { return NewtonianOptions{2e7, 1e-3, 0.0}; }
+
 // clang-format off
 BENCHMARK_CAPTURE(law_batch, mohr_coulomb_2d_elastic, 2, &mohr_coulomb, Path::elastic);
-BENCHMARK_CAPTURE(law_batch, mohr_coulomb_3d_elastic, 3, &mohr_coulomb, Path::elastic);
 BENCHMARK_CAPTURE(law_batch, mohr_coulomb_2d_yielding, 2, &mohr_coulomb, Path::yielding);
+BENCHMARK_CAPTURE(law_batch, mohr_coulomb_3d_elastic, 3, &mohr_coulomb, Path::elastic);
 BENCHMARK_CAPTURE(law_batch, mohr_coulomb_3d_yielding, 3, &mohr_coulomb, Path::yielding);
-BENCHMARK_CAPTURE(law_batch, mohr_coulomb_2d_softening, 2, &softening_mohr_coulomb, Path::yielding);
-BENCHMARK_CAPTURE(law_batch, mohr_coulomb_3d_softening, 3, &softening_mohr_coulomb, Path::yielding);
+BENCHMARK_CAPTURE(law_batch, softening_mohr_coulomb_2d_yielding, 2, &softening_mohr_coulomb, Path::yielding);
+BENCHMARK_CAPTURE(law_batch, softening_mohr_coulomb_3d_yielding, 3, &softening_mohr_coulomb, Path::yielding);
+BENCHMARK_CAPTURE(law_batch, tresca_2d_elastic, 2, &tresca, Path::elastic);
+BENCHMARK_CAPTURE(law_batch, tresca_2d_yielding, 2, &tresca, Path::yielding);
+BENCHMARK_CAPTURE(law_batch, tresca_3d_elastic, 3, &tresca, Path::elastic);
+BENCHMARK_CAPTURE(law_batch, tresca_3d_yielding, 3, &tresca, Path::yielding);
+BENCHMARK_CAPTURE(law_batch, von_mises_2d_elastic, 2, &von_mises, Path::elastic);
+BENCHMARK_CAPTURE(law_batch, von_mises_2d_yielding, 2, &von_mises, Path::yielding);
+BENCHMARK_CAPTURE(law_batch, von_mises_3d_elastic, 3, &von_mises, Path::elastic);
+BENCHMARK_CAPTURE(law_batch, von_mises_3d_yielding, 3, &von_mises, Path::yielding);
+BENCHMARK_CAPTURE(law_batch, drucker_prager_2d_elastic, 2, &drucker_prager, Path::elastic);
+BENCHMARK_CAPTURE(law_batch, drucker_prager_2d_yielding, 2, &drucker_prager, Path::yielding);
+BENCHMARK_CAPTURE(law_batch, drucker_prager_3d_elastic, 3, &drucker_prager, Path::elastic);
+BENCHMARK_CAPTURE(law_batch, drucker_prager_3d_yielding, 3, &drucker_prager, Path::yielding);
+BENCHMARK_CAPTURE(law_batch, mu_i_2d_elastic, 2, &mu_i, Path::elastic);
+BENCHMARK_CAPTURE(law_batch, mu_i_2d_yielding, 2, &mu_i, Path::yielding);
+BENCHMARK_CAPTURE(law_batch, mu_i_3d_elastic, 3, &mu_i, Path::elastic);
+BENCHMARK_CAPTURE(law_batch, mu_i_3d_yielding, 3, &mu_i, Path::yielding);
+BENCHMARK_CAPTURE(law_batch, newtonian_3d, 3, &newtonian, Path::elastic);
 // clang-format on
 
 }  // namespace

@@ -57,13 +57,17 @@ void read_law(Section& soil, SoilBody& body) {
   const std::size_t before = report.size();
   const LawReader reader = section.choice<LawReader>(
       "type",
-      {{"linear-elastic", &read_linear_elastic},
+      {{"drucker-prager", &read_drucker_prager},
+       {"linear-elastic", &read_linear_elastic},
        {"modified-cam-clay", &read_modified_cam_clay},
-       {"mohr-coulomb", &read_mohr_coulomb}},
-      {},
-      {"neo-hookean", "drucker-prager", "sekiguchi-ohta", "tresca", "von-mises", "hypoplastic",
-       "sanisand", "umat", "mu-i", "newtonian", "bingham"});
+       {"mohr-coulomb", &read_mohr_coulomb},
+       {"mu-i", &read_mu_i},
+       {"newtonian", &read_newtonian},
+       {"tresca", &read_tresca},
+       {"von-mises", &read_von_mises}},
+      {}, {"neo-hookean", "sekiguchi-ohta", "hypoplastic", "sanisand", "umat", "bingham"});
   if (reader) body.law = reader(section);
+  if (auto* law = std::get_if<MuIOptions>(&body.law)) law->grain_density = body.grain_density;
   const bool good = report.size() == before;
   const bool yields = good && reader && make_soil_model(body.law)->yields();
   body.strain = read_strain(

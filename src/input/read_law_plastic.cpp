@@ -113,4 +113,49 @@ SoilLawOptions read_mohr_coulomb(Section& section) {
   return law;
 }
 
+namespace {
+
+/// undrained_strength, and residual_strength with softening.
+template <class Options>
+Options read_undrained(Section& section) {
+  Options law;
+  law.young_modulus = read_young_modulus(section);
+  law.poisson_ratio = read_poisson_ratio(section);
+  law.undrained_strength =
+      section.number("undrained_strength", quantity::stress,
+                     positive("an undrained strength lies above 0", "Soft clay has 5-25 kPa."));
+  const auto softening = read_softening(section, {"residual_strength"});
+  if (!softening) return law;
+  const double left =
+      section.number("residual_strength", quantity::stress,
+                     {.lower = 0.0,
+                      .upper = law.undrained_strength,
+                      .reason = "what is left lies between 0 and the undrained strength",
+                      .cure = "Remoulded clay keeps a half to a tenth."});
+  law.residual = UndrainedResidual{left, *softening};
+  return law;
+}
+
+}  // namespace
+
+SoilLawOptions read_tresca(Section& section) { return read_undrained<TrescaOptions>(section); }
+SoilLawOptions read_von_mises(Section& section) { return read_undrained<VonMisesOptions>(section); }
+
+SoilLawOptions read_drucker_prager(Section& section) {
+  DruckerPragerOptions law;
+  law.young_modulus = read_young_modulus(section);
+  law.poisson_ratio = read_poisson_ratio(section);
+  law.friction_angle = read_friction_angle(section);
+  law.cohesion = read_cohesion(section, law.friction_angle);
+  law.dilatancy_angle = read_dilatancy_angle(section, law.friction_angle);
+  law.tension_cutoff = read_tension_cutoff(section, "the largest mean stress");
+  law.match =
+      section.choice<DruckerPragerMatch>("match",
+                                         {{"compression", DruckerPragerMatch::compression},
+                                          {"extension", DruckerPragerMatch::extension},
+                                          {"plane-strain", DruckerPragerMatch::plane_strain}},
+                                         law.match);
+  return law;
+}
+
 }  // namespace mudlark

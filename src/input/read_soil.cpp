@@ -120,11 +120,13 @@ void read_soil(Section& root, CaseOptions& options, const WaterProperties& water
     body.grain_density = section.number(
         "grain_density", quantity::density,
         positive("a density lies above 0", "Quartz has 2650 kg/m3."), body.grain_density);
+    const Value* pore_water = section.raw("pore_water");
+    const auto* word = pore_water ? std::get_if<std::string>(&pore_water->data) : nullptr;
     body.porosity =
         section.number("porosity", quantity::number,
                        {.lower = 0.0,
                         .upper = 1.0,
-                        .lower_included = false,
+                        .lower_included = word && *word == "none",
                         .upper_included = false,
                         .reason = "the share of pores in the volume lies between 0 and 1",
                         .cure = "Sand has 0.35-0.45."});

@@ -37,6 +37,12 @@ double read_poisson_ratio(Section& section);  ///< [-]
 /// Laws that yield at a constant or softening strength.
 SoilLawOptions read_modified_cam_clay(Section& law);
 SoilLawOptions read_mohr_coulomb(Section& law);
+SoilLawOptions read_tresca(Section& law);
+SoilLawOptions read_von_mises(Section& law);
+SoilLawOptions read_drucker_prager(Section& law);
+/// Laws of flow; the grain density of the body is set afterwards.
+SoilLawOptions read_mu_i(Section& law);
+SoilLawOptions read_newtonian(Section& law);
 void read_loads(Section& root, CaseOptions& options);
 void read_solvers(Section& root, CaseOptions& options, std::optional<double> courant);
 void read_coupling(Section& root, CaseOptions& options);

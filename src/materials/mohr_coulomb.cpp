@@ -14,9 +14,14 @@ constexpr std::array<std::string_view, 2> names{"plastic shear strain [-]", "sep
 MohrCoulomb::MohrCoulomb(const MohrCoulombOptions& options)
     : options_(options),
       elasticity_(Elasticity::from(options.young_modulus, options.poisson_ratio)),
-      first_(MohrCoulombSurface::from(options.cohesion, std::tan(options.friction_angle),
-                                      std::tan(options.dilatancy_angle), options.tension_cutoff)),
-      softens_(options.residual.has_value()) {}
+      peak_{options.cohesion, std::tan(options.friction_angle), std::tan(options.dilatancy_angle)},
+      first_(MohrCoulombSurface::from(peak_.cohesion, peak_.tan_friction, peak_.tan_dilatancy,
+                                      options.tension_cutoff)),
+      softens_(options.residual.has_value()) {
+  if (softens_)
+    last_ = {options.residual->cohesion, std::tan(options.residual->friction_angle),
+             std::tan(options.residual->dilatancy_angle)};
+}
 
 std::span<const std::string_view> MohrCoulomb::history_names() const { return names; }
 
@@ -27,16 +32,13 @@ double MohrCoulomb::earth_pressure_at_rest() const {
 
 MohrCoulombSurface MohrCoulomb::surface_at(double plastic_shear, double length) const {
   if (!softens_ || plastic_shear <= 0.0) return first_;
-  const auto& last = *options_.residual;
-  const double left = last.softening.share(plastic_shear, length);
+  const double left = options_.residual->softening.share(plastic_shear, length);
   const auto between = [&](double residual, double peak) {
     return residual + left * (peak - residual);
   };
   return MohrCoulombSurface::from(
-      between(last.cohesion, options_.cohesion),
-      between(std::tan(last.friction_angle), std::tan(options_.friction_angle)),
-      between(std::tan(last.dilatancy_angle), std::tan(options_.dilatancy_angle)),
-      options_.tension_cutoff);
+      between(last_.cohesion, peak_.cohesion), between(last_.tan_friction, peak_.tan_friction),
+      between(last_.tan_dilatancy, peak_.tan_dilatancy), options_.tension_cutoff);
 }
 
 /// Plastic engineering shear strain sqrt(2 e:e) of a return, e the deviator of what the elastic
@@ -58,7 +60,7 @@ PrincipalValues MohrCoulomb::soften(const PrincipalValues& trial, double length,
     return plastic_shear + shear_between(trial, stress) - g;
   };
   double lower = plastic_shear, below = excess(lower);
-  const double tolerance = 1e-10 * below;
+  const double tolerance = 1e-15 + 1e-10 * below;
   double upper = lower + below, above = excess(upper);
   if (above >
       tolerance) {  // weaker than at the start, hence more shear: the residual surface bounds

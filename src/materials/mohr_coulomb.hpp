@@ -40,6 +40,10 @@ class MohrCoulomb final : public SoilModel {
 
   MohrCoulombOptions options_;
   Elasticity elasticity_;
+  struct Strength {
+    double cohesion = 0.0, tan_friction = 0.0, tan_dilatancy = 0.0;  ///< [Pa], [-]
+  };
+  Strength peak_, last_{};
   MohrCoulombSurface first_;  ///< before any softening
   bool softens_ = false;
 };

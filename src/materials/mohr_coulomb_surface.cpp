@@ -114,6 +114,8 @@ PrincipalValues returned(const MohrCoulombSurface& surface, const Elasticity& el
   if (from.friction(trial[0], trial[2]) > 0.0) {
     const auto s = from.to_friction();
     if (s && (*s)[0] <= surface.tension) return *s;
+  } else if (trial[0] <= surface.tension) {
+    return trial;  // outside by no more than round-off
   }
   return from.to_cutoff();
 }

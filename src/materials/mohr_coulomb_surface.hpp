@@ -32,8 +32,8 @@ struct MohrCoulombSurface {
 PrincipalValues returned(const MohrCoulombSurface& surface, const Elasticity& elasticity,
                          const PrincipalValues& trial);
 
-/// Plane strain without a square root too many; in space first the cone inside the pyramid, whose
-/// points need no principal stresses.
+/// Plane strain without a square root too many; in space first the cones inside and around the
+/// pyramid, between which alone principal stresses are needed.
 inline bool MohrCoulombSurface::admits(const SymTensor& stress) const {
   if (is_plane(stress)) {
     const double mean = 0.5 * (stress.xx + stress.zz), half = 0.5 * (stress.xx - stress.zz);
@@ -42,12 +42,13 @@ inline bool MohrCoulombSurface::admits(const SymTensor& stress) const {
     const double least = mean - radius < stress.yy ? mean - radius : stress.yy;
     return slope * largest - least <= strength && largest <= tension;
   }
-  // k s1 - s3 = (k - 1) mean + sqrt(J2) g(theta), g <= 2 sqrt((k^2 + k + 1)/3) whatever Lode's
-  // angle
-  const double mean = mean_of(stress), root = std::sqrt(second_invariant(stress));
-  const double widest = 2.0 * std::sqrt((slope * slope + slope + 1.0) / 3.0);
-  if ((slope - 1.0) * mean + widest * root <= strength &&
-      mean + 1.1547005383792517 * root <= tension)
+  // k s1 - s3 = (k - 1) mean + sqrt(J2) g(theta), with k + 2 <= sqrt(3) g <= 2 sqrt(k^2 + k + 1)
+  constexpr double third_root = 0.5773502691896258;
+  const double mean = mean_of(stress), root = third_root * std::sqrt(second_invariant(stress));
+  const double even = (slope - 1.0) * mean;
+  if (even + (slope + 2.0) * root > strength) return false;
+  if (even + 2.0 * std::sqrt(slope * slope + slope + 1.0) * root <= strength &&
+      mean + 2.0 * root <= tension)
     return true;
   return admits(principal_values(stress));
 }

@@ -48,7 +48,55 @@ struct MohrCoulombOptions {
   };
   std::optional<Residual> residual{};
 };
+
+/// Undrained strength s_u [Pa], in total stresses, and what is left of it.
+struct UndrainedResidual {
+  double strength = 0.0;  ///< [Pa]
+  Softening softening{};
+};
+struct TrescaOptions {
+  double young_modulus = 0.0;       ///< [Pa], undrained
+  double poisson_ratio = 0.0;       ///< [-], undrained
+  double undrained_strength = 0.0;  ///< s_u [Pa]
+  std::optional<UndrainedResidual> residual{};
+};
+struct VonMisesOptions {
+  double young_modulus = 0.0;       ///< [Pa], undrained
+  double poisson_ratio = 0.0;       ///< [-], undrained
+  double undrained_strength = 0.0;  ///< s_u [Pa] in shear
+  std::optional<UndrainedResidual> residual{};
+};
+
+/// The states at which the cone has the strength of Mohr-Coulomb.
+enum class DruckerPragerMatch { plane_strain, compression, extension };
+struct DruckerPragerOptions {
+  double young_modulus = 0.0;                                       ///< [Pa], effective
+  double poisson_ratio = 0.0;                                       ///< [-], effective
+  double cohesion = 0.0;                                            ///< c [Pa]
+  double friction_angle = 0.0;                                      ///< phi [rad]
+  double dilatancy_angle = 0.0;                                     ///< psi [rad]
+  double tension_cutoff = std::numeric_limits<double>::infinity();  ///< largest mean stress [Pa]
+  DruckerPragerMatch match = DruckerPragerMatch::plane_strain;
+};
+
+/// mu(I); the defaults are glass beads (Jop, Forterre & Pouliquen 2006).
+struct MuIOptions {
+  double young_modulus = 0.0;         ///< [Pa], of the grains' skeleton
+  double poisson_ratio = 0.0;         ///< [-]
+  double static_friction = 0.3819;    ///< mu_s [-]
+  double limiting_friction = 0.6435;  ///< mu_2 [-]
+  double inertial_number = 0.279;     ///< I_0 [-]
+  double grain_diameter = 0.0;        ///< d [m]
+  double grain_density = 2650.0;      ///< rho_s [kg/m3]
+};
+
+struct NewtonianOptions {
+  double bulk_modulus = 0.0;    ///< K [Pa]
+  double viscosity = 0.0;       ///< mu [Pa s]
+  double tension_cutoff = 0.0;  ///< largest mean stress [Pa]
+};
 using SoilLawOptions =
-    std::variant<LinearElasticOptions, MohrCoulombOptions, ModifiedCamClayOptions>;
+    std::variant<LinearElasticOptions, MohrCoulombOptions, TrescaOptions, VonMisesOptions,
+                 DruckerPragerOptions, MuIOptions, NewtonianOptions, ModifiedCamClayOptions>;
 
 }  // namespace mudlark

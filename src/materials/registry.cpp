@@ -1,8 +1,13 @@
 #include "materials/registry.hpp"
 
+#include "materials/drucker_prager.hpp"
 #include "materials/linear_elastic.hpp"
 #include "materials/modified_cam_clay.hpp"
 #include "materials/mohr_coulomb.hpp"
+#include "materials/mu_i.hpp"
+#include "materials/newtonian.hpp"
+#include "materials/tresca.hpp"
+#include "materials/von_mises.hpp"
 
 namespace mudlark {
 namespace {
@@ -16,6 +21,21 @@ struct Maker {
   }
   std::unique_ptr<SoilModel> operator()(const MohrCoulombOptions& options) const {
     return std::make_unique<MohrCoulomb>(options);
+  }
+  std::unique_ptr<SoilModel> operator()(const TrescaOptions& options) const {
+    return std::make_unique<Tresca>(options);
+  }
+  std::unique_ptr<SoilModel> operator()(const VonMisesOptions& options) const {
+    return std::make_unique<VonMises>(options);
+  }
+  std::unique_ptr<SoilModel> operator()(const DruckerPragerOptions& options) const {
+    return std::make_unique<DruckerPrager>(options);
+  }
+  std::unique_ptr<SoilModel> operator()(const MuIOptions& options) const {
+    return std::make_unique<MuI>(options);
+  }
+  std::unique_ptr<SoilModel> operator()(const NewtonianOptions& options) const {
+    return std::make_unique<Newtonian>(options);
   }
 };
 

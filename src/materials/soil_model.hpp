@@ -49,10 +49,12 @@ class SoilModel {
   virtual bool yields() const { return true; }
   virtual bool wants_rotation() const { return false; }
   /// Largest stiffness that a compression wave meets in any of these states [Pa] (the constrained
-  /// modulus). Rate-dependent laws include what their viscosity adds. Without points: the
-  /// stiffness of the stress-free state.
+  /// modulus). Without points: the stiffness of the stress-free state.
   virtual double wave_modulus(std::span<const SymTensor> stress,
                               std::span<const double> history) const = 0;
+  /// Viscosity that a compression wave meets, 4/3 mu + bulk viscosity [Pa s], of laws whose stress
+  /// follows the rate of strain without delay: it shortens the stable step.
+  virtual double wave_viscosity() const { return 0.0; }
   /// Elastic shear modulus in the stress-free state [Pa].
   virtual double shear_modulus() const = 0;
   /// Ratio of horizontal to vertical effective stress of soil laid down by its own weight [-].

@@ -205,6 +205,17 @@ TEST(MohrCoulombSurface, ReturnsWhereKoitersRuleSaysFromAnywhere) {
       }
 }
 
+TEST(MohrCoulombSurface, LeavesAStressThatLiesOnItWhereItIs) {
+  const Elasticity elasticity = Elasticity::from(young, poisson);
+  const auto surface = MohrCoulombSurface::from(5e3, 0.6, 0.1, 2e3);
+  const PrincipalValues on{-3e3, -5e3, surface.slope * -3e3 - surface.strength};
+  for (const double inwards : {0.0, 1e-9, 10.0}) {
+    const PrincipalValues trial{on[0] - inwards, on[1], on[2]};
+    const PrincipalValues s = returned(surface, elasticity, trial);
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(s[i], trial[i], 1e-8);
+  }
+}
+
 TEST(MohrCoulombSurface, KnowsElasticStatesWithoutTheirPrincipalStresses) {
   std::mt19937 generator(4);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);

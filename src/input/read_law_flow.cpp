@@ -1,0 +1,52 @@
+/// law = { type = "mu-i", ... }: laws whose stress depends on the rate of flow.
+#include <algorithm>
+
+#include "input/sections.hpp"
+
+namespace mudlark {
+
+SoilLawOptions read_mu_i(Section& section) {
+  MuIOptions law;
+  law.young_modulus = read_young_modulus(section);
+  law.poisson_ratio = read_poisson_ratio(section);
+  law.static_friction =
+      section.number("static_friction", quantity::number,
+                     {.lower = 0.0,
+                      .upper = 1.0,
+                      .lower_included = false,
+                      .reason = "the friction of slow shear, tau/P, lies above 0 and up to 1",
+                      .cure = "Glass beads have 0.38, sand about 0.6."},
+                     law.static_friction);
+  law.limiting_friction =
+      section.number("limiting_friction", quantity::number,
+                     {.lower = law.static_friction,
+                      .reason = "the friction of fast shear is not less than that of slow shear",
+                      .cure = "Glass beads have 0.64."},
+                     std::max(law.limiting_friction, law.static_friction));
+  law.inertial_number =
+      section.number("inertial_number", quantity::number,
+                     positive("I_0, at which friction is halfway between its limits, lies above 0",
+                              "Glass beads have 0.279."),
+                     law.inertial_number);
+  law.grain_diameter = section.number("grain_diameter", quantity::length,
+                                      positive("a diameter lies above 0", "Sand has 0.1-2 mm."));
+  return law;
+}
+
+SoilLawOptions read_newtonian(Section& section) {
+  NewtonianOptions law;
+  law.bulk_modulus = section.number(
+      "bulk_modulus", quantity::stiffness,
+      positive("a stiffness lies above 0",
+               "Water has 2.15e9 Pa; a wave ten times as fast as the flow is stiff enough."));
+  law.viscosity =
+      section.number("viscosity", quantity::viscosity,
+                     not_negative("a viscosity is not negative", "Water has 1e-3 Pa s."));
+  law.tension_cutoff = section.number("tension_cutoff", quantity::stress,
+                                      not_negative("the largest mean stress, tension positive",
+                                                   "0 lets the liquid part as spray does."),
+                                      law.tension_cutoff);
+  return law;
+}
+
+}  // namespace mudlark
