@@ -63,9 +63,10 @@ void read_law(Section& soil, SoilBody& body) {
        {"mohr-coulomb", &read_mohr_coulomb},
        {"mu-i", &read_mu_i},
        {"newtonian", &read_newtonian},
+       {"sanisand", &read_sanisand},
        {"tresca", &read_tresca},
        {"von-mises", &read_von_mises}},
-      {}, {"neo-hookean", "sekiguchi-ohta", "hypoplastic", "sanisand", "umat", "bingham"});
+      {}, {"neo-hookean", "sekiguchi-ohta", "hypoplastic", "umat", "bingham"});
   if (reader) body.law = reader(section);
   if (auto* law = std::get_if<MuIOptions>(&body.law)) law->grain_density = body.grain_density;
   const bool good = report.size() == before;

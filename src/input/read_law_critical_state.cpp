@@ -1,4 +1,7 @@
 /// law = { type = "modified-cam-clay", ... }: laws that know void ratio and critical state.
+#include <array>
+#include <limits>
+
 #include "input/sections.hpp"
 
 namespace mudlark {
@@ -57,12 +60,74 @@ void read_overconsolidation(Section& section, CriticalStateOptions& law) {
   }
 }
 
+/// A parameter of SANISAND: needed, unless the case names a sand that has it.
+struct SanisandKey {
+  std::string_view key;
+  double SanisandOptions::*value;
+  double lower, upper;
+  std::string_view reason;
+};
+constexpr double unbounded = std::numeric_limits<double>::infinity();
+constexpr std::array<SanisandKey, 15> sanisand_keys{{
+    {"shear_coefficient", &SanisandOptions::shear_coefficient, 0.0, unbounded,
+     "G_0 of the elastic shear modulus"},
+    {"poisson_ratio", &SanisandOptions::poisson_ratio, -1.0, 0.5,
+     "an isotropic elastic solid needs -1 < nu < 0.5"},
+    {"critical_stress_ratio", &SanisandOptions::critical_stress_ratio, 0.0, 3.0,
+     "M = 6 sin(phi) / (3 - sin(phi)) lies between 0 and 3"},
+    {"extension_ratio", &SanisandOptions::extension_ratio, 0.6, 1.2,
+     "c, M in extension over M in compression; below 0.6 the surface is no longer convex"},
+    {"critical_slope", &SanisandOptions::critical_slope, 0.0, unbounded,
+     "lambda_c of e_c = e_0 - lambda_c (p/p_at)^xi"},
+    {"critical_void_ratio", &SanisandOptions::critical_void_ratio, 0.0, 2.5,
+     "e_0 of e_c = e_0 - lambda_c (p/p_at)^xi"},
+    {"critical_exponent", &SanisandOptions::critical_exponent, 0.0, 2.0,
+     "xi of e_c = e_0 - lambda_c (p/p_at)^xi"},
+    {"yield_radius", &SanisandOptions::yield_radius, 0.0, 0.2,
+     "m, the half width of the cone within which sand is elastic, is small beside M"},
+    {"hardening_coefficient", &SanisandOptions::hardening_coefficient, 0.0, unbounded,
+     "h_0 of the plastic modulus"},
+    {"hardening_void_ratio", &SanisandOptions::hardening_void_ratio, 0.0, 2.0,
+     "c_h of h_0 (1 - c_h e)"},
+    {"bounding_exponent", &SanisandOptions::bounding_exponent, 0.0, unbounded,
+     "n^b of the bounding surface M exp(-n^b psi)"},
+    {"dilatancy_coefficient", &SanisandOptions::dilatancy_coefficient, 0.0, unbounded,
+     "A_0 of the dilatancy"},
+    {"dilatancy_exponent", &SanisandOptions::dilatancy_exponent, 0.0, unbounded,
+     "n^d of the dilatancy surface M exp(n^d psi)"},
+    {"largest_fabric", &SanisandOptions::largest_fabric, 0.0, unbounded, "z_max of the fabric"},
+    {"fabric_rate", &SanisandOptions::fabric_rate, 0.0, unbounded, "c_z of the fabric"},
+}};
+
 }  // namespace
 
 SoilLawOptions read_modified_cam_clay(Section& section) {
   ModifiedCamClayOptions law;
   read_indices(section, law);
   read_overconsolidation(section, law);
+  return law;
+}
+
+SoilLawOptions read_sanisand(Section& section) {
+  std::optional<SanisandOptions> sand;
+  if (section.has("sand"))
+    sand =
+        section.choice<SanisandOptions (*)()>("sand", {{"toyoura", &SanisandOptions::toyoura}})();
+  SanisandOptions law;
+  for (const SanisandKey& key : sanisand_keys)
+    law.*key.value =
+        section.number(key.key, quantity::number,
+                       {.lower = key.lower,
+                        .upper = key.upper,
+                        .lower_included = false,
+                        .upper_included = false,
+                        .reason = std::string(key.reason),
+                        .cure = "sand = \"toyoura\" has values for all of them."},
+                       sand ? std::optional<double>((*sand).*key.value) : std::nullopt);
+  law.reference_pressure =
+      section.number("reference_pressure", quantity::pressure,
+                     positive("the pressure that the parameters were fitted with"), 1e5);
+  law.mean_stress_floor = read_mean_stress_floor(section);
   return law;
 }
 

@@ -43,6 +43,7 @@ SoilLawOptions read_drucker_prager(Section& law);
 /// Laws of flow; the grain density of the body is set afterwards.
 SoilLawOptions read_mu_i(Section& law);
 SoilLawOptions read_newtonian(Section& law);
+SoilLawOptions read_sanisand(Section& law);
 void read_loads(Section& root, CaseOptions& options);
 void read_solvers(Section& root, CaseOptions& options, std::optional<double> courant);
 void read_coupling(Section& root, CaseOptions& options);

@@ -17,4 +17,31 @@ struct CriticalStateOptions {
 
 struct ModifiedCamClayOptions : CriticalStateOptions {};
 
+/// Parameters of Dafalias & Manzari (2004), with their letters.
+struct SanisandOptions {
+  double shear_coefficient = 0.0;      ///< G_0 [-]
+  double poisson_ratio = 0.0;          ///< [-]
+  double critical_stress_ratio = 0.0;  ///< M [-] in compression
+  double extension_ratio = 0.0;        ///< c [-], M in extension over M in compression
+  double critical_slope = 0.0;         ///< lambda_c [-]
+  double critical_void_ratio = 0.0;    ///< e_0 [-], of the critical state at no stress
+  double critical_exponent = 0.0;      ///< xi [-]
+  double yield_radius = 0.0;           ///< m [-]
+  double hardening_coefficient = 0.0;  ///< h_0 [-]
+  double hardening_void_ratio = 0.0;   ///< c_h [-]
+  double bounding_exponent = 0.0;      ///< n^b [-]
+  double dilatancy_coefficient = 0.0;  ///< A_0 [-]
+  double dilatancy_exponent = 0.0;     ///< n^d [-]
+  double largest_fabric = 0.0;         ///< z_max [-]
+  double fabric_rate = 0.0;            ///< c_z [-]
+  double reference_pressure = 1e5;     ///< p_at [Pa]
+  double mean_stress_floor = 500.0;    ///< below it stiffness falls no further [Pa]
+
+  /// Toyoura sand, Table 1 there.
+  static SanisandOptions toyoura() {
+    return {125.0, 0.05,  1.25, 0.712, 0.019, 0.934, 0.7,  0.01,
+            7.05,  0.968, 1.1,  0.704, 3.5,   4.0,   600.0};
+  }
+};
+
 }  // namespace mudlark

@@ -97,6 +97,7 @@ struct NewtonianOptions {
 };
 using SoilLawOptions =
     std::variant<LinearElasticOptions, MohrCoulombOptions, TrescaOptions, VonMisesOptions,
-                 DruckerPragerOptions, MuIOptions, NewtonianOptions, ModifiedCamClayOptions>;
+                 DruckerPragerOptions, MuIOptions, NewtonianOptions, ModifiedCamClayOptions,
+                 SanisandOptions>;
 
 }  // namespace mudlark

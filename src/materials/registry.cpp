@@ -6,6 +6,7 @@
 #include "materials/mohr_coulomb.hpp"
 #include "materials/mu_i.hpp"
 #include "materials/newtonian.hpp"
+#include "materials/sanisand.hpp"
 #include "materials/tresca.hpp"
 #include "materials/von_mises.hpp"
 
@@ -18,6 +19,9 @@ struct Maker {
   }
   std::unique_ptr<SoilModel> operator()(const ModifiedCamClayOptions& options) const {
     return std::make_unique<ModifiedCamClay>(options);
+  }
+  std::unique_ptr<SoilModel> operator()(const SanisandOptions& options) const {
+    return std::make_unique<Sanisand>(options);
   }
   std::unique_ptr<SoilModel> operator()(const MohrCoulombOptions& options) const {
     return std::make_unique<MohrCoulomb>(options);
