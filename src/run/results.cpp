@@ -1,5 +1,6 @@
 #include "run/results.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "base/version.hpp"
@@ -37,9 +38,46 @@ class PointTable {
         columns_[5 * D + 9].push_back(static_cast<double>(b));
       }
     }
+    for (std::size_t b = 0; b < soil.bodies(); ++b) name_states(soil.points(b));
+    for (std::size_t s = 0; s < states_.size(); ++s)
+      for (std::size_t b = 0; b < soil.bodies(); ++b) add_state(states_[s], soil.points(b));
   }
 
   std::vector<PointArray> arrays() const {
+    auto all = fixed_arrays();
+    for (const State& state : states_)
+      all.push_back({state.name, state.unit, {state.values.data()}});
+    return all;
+  }
+  std::vector<std::int64_t> ids;
+
+ private:
+  /// A state variable of some soil laws; zero at points of the others.
+  struct State {
+    std::string name, unit;
+    std::vector<double> values = {};
+  };
+
+  void name_states(const SoilParticles<D>& points) {
+    for (std::size_t h = 0; h < points.history_names.size(); ++h) {
+      const std::string& name = points.history_names[h];
+      const auto known = [&](const State& state) { return state.name == name; };
+      if (std::none_of(states_.begin(), states_.end(), known))
+        states_.push_back({name, points.history_units[h]});
+    }
+  }
+  static void add_state(State& state, const SoilParticles<D>& points) {
+    const auto& names = points.history_names;
+    const auto found = std::find(names.begin(), names.end(), state.name);
+    if (found == names.end()) {
+      state.values.resize(state.values.size() + points.size(), 0.0);
+    } else {
+      const auto& values = points.history[static_cast<std::size_t>(found - names.begin())];
+      state.values.insert(state.values.end(), values.begin(), values.end());
+    }
+  }
+
+  std::vector<PointArray> fixed_arrays() const {
     return {array("position", "m", 0, D),
             array("initial position", "m", D, D),
             array("displacement", "m", 2 * D, D),
@@ -51,9 +89,6 @@ class PointTable {
             array("volume", D == 2 ? "m2" : "m3", 5 * D + 8, 1),
             array("soil", "1", 5 * D + 9, 1)};
   }
-  std::vector<std::int64_t> ids;
-
- private:
   template <int N>
   void add(std::size_t column, const PointQuantity<N>& quantity) {
     for (int c = 0; c < N; ++c, ++column)
@@ -67,6 +102,7 @@ class PointTable {
   }
 
   std::array<std::vector<double>, 5 * D + 10> columns_;
+  std::vector<State> states_;
 };
 
 /// Work by name [J]; what is left between them is what transfers and time steps take.
