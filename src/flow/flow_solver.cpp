@@ -36,6 +36,7 @@ FlowSolver<D>::FlowSolver(const Grid<D>& grid, const FlowOptions& options)
       predictor_(grid, options),
       projection_(grid, options),
       extension_(grid),
+      waves_(grid, options.waves),
       water_(grid, "water fraction", "1"),
       porosity_(grid, "porosity", "1", 1.0),
       pressure_(grid, "pressure", "Pa"),
@@ -94,7 +95,7 @@ void FlowSolver<D>::initialise(const PorousMedium<D>& medium) {
   fill_with_bodies();
   update_derived();
   initial_volume_ = ledger().present;
-  outflow_ = 0.0;
+  outflow_ = time_ = 0.0;
   step_ = 0;
   projection_.find_surface(water_, porosity_, saturation_, interface_);
   project_start(medium);
@@ -195,6 +196,7 @@ template <int D>
 void FlowSolver<D>::advance(const PorousMedium<D>& medium, double dt) {
   check_step(dt);
   transport(medium, dt);
+  if (!waves_.empty()) make_waves(dt);
   update_derived();
   projection_.find_surface(water_, porosity_, saturation_, interface_);
   if (options_.wall_law == WallLaw::werner_wengle)
@@ -207,6 +209,16 @@ void FlowSolver<D>::advance(const PorousMedium<D>& medium, double dt) {
   extension_.extend(projection_.unknown(), water_, porosity_, velocity_);
   check_finite();
   step_ += 1;
+  time_ += dt;
+}
+
+/// The water is at the end of the step, the velocity still at its start: gravity and pressure come
+/// later.
+template <int D>
+void FlowSolver<D>::make_waves(double dt) {
+  outflow_ -= sum_over_ranks(*grid_, waves_.blend_water(porosity_, time_ + dt, dt, water_));
+  ghosts_.update(water_);
+  waves_.blend_velocity(water_, time_, dt, velocity_);
 }
 
 template <int D>

@@ -23,7 +23,8 @@
 
 namespace mudlark {
 
-/// Volume of the water since the start; present = initial - outflow to round-off [m^D].
+/// Volume of the water since the start; present = initial - outflow to round-off [m^D]. What wave
+/// zones add counts as negative outflow.
 struct WaterLedger {
   double initial = 0.0, outflow = 0.0, present = 0.0;
 };
@@ -80,6 +81,7 @@ class FlowSolver {
   template <class Archive>
   void archive(Archive& a) {
     a.integer("flow step", step_);
+    a.number("flow time", time_);
     a.number("initial water", initial_volume_);
     a.number("water outflow", outflow_);
     a.cells("water fraction", water_);
@@ -96,6 +98,7 @@ class FlowSolver {
   void find_flux();
   void find_target(const PorousMedium<D>& medium, double dt);
   void add_outflow();
+  void make_waves(double dt);
   void project_start(const PorousMedium<D>& medium);
   void check_bounds() const;
   void check_finite() const;
@@ -110,11 +113,12 @@ class FlowSolver {
   Predictor<D> predictor_;
   Projection<D> projection_;
   VelocityExtension<D> extension_;
+  WaveZones<D> waves_;
   CellField<D> water_, porosity_, pressure_, saturation_;
   FaceVector<D> velocity_;
   CellField<D> old_water_, new_porosity_, target_, no_storage_;
   FaceVector<D> flux_, carried_, mobility_, wall_friction_;
-  double initial_volume_ = 0.0, outflow_ = 0.0;
+  double initial_volume_ = 0.0, outflow_ = 0.0, time_ = 0.0;
   std::int64_t step_ = 0;
   SolveReport last_solve_;
 };

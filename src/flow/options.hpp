@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/varying.hpp"
+#include "flow/wave_zone.hpp"
 #include "grid/shape.hpp"
 
 namespace mudlark {
@@ -41,6 +42,7 @@ struct FlowOptions {
   double courant = 0.4;  ///< of the interface's Courant number bound (NUMERICS B2)
   double pressure_tolerance =
       1e-10;  ///< bound on the largest residual divergence times the step [-]
+  std::vector<WaveZoneOptions> waves;
   WallLaw wall_law = WallLaw::resolved;
   bool advection = true;  ///< momentum advection (off: Stokes flow, for tests)
 };

@@ -10,13 +10,14 @@ namespace mudlark {
 namespace {
 
 void refuse_later_sections(Section& root) {
-  for (const std::string key : {"wave", "solid"})
+  for (const std::string key : {"solid"})
     if (root.has(key))
       root.reading().report.add(
-          root.place(key), fmt::format("[[{}]] is not available yet; available: [domain], [time], "
-                                       "[water], [[water.body]], [[soil]], [[porous]], [coupling], "
-                                       "[[load]], [[gauge]], [soil_solver], [flow_solver]",
-                                       key));
+          root.place(key),
+          fmt::format("[[{}]] is not available yet; available: [domain], [time], "
+                      "[water], [[water.body]], [[soil]], [[porous]], [coupling], "
+                      "[[load]], [[wave]], [[gauge]], [soil_solver], [flow_solver]",
+                      key));
 }
 
 }  // namespace
@@ -37,6 +38,7 @@ CaseOptions read_case(const std::filesystem::path& file, std::span<const std::st
   read_soil(root, options, water, grounds);
   read_coupling(root, options);
   read_loads(root, options);
+  read_waves(root, options);
   read_solvers(root, options, courant);
   read_gauges(root, options);
   refuse_later_sections(root);

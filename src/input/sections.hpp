@@ -44,6 +44,8 @@ SoilLawOptions read_drucker_prager(Section& law);
 SoilLawOptions read_mu_i(Section& law);
 SoilLawOptions read_newtonian(Section& law);
 SoilLawOptions read_sanisand(Section& law);
+/// [[wave]]: after [domain] and [water].
+void read_waves(Section& root, CaseOptions& options);
 void read_loads(Section& root, CaseOptions& options);
 void read_solvers(Section& root, CaseOptions& options, std::optional<double> courant);
 void read_coupling(Section& root, CaseOptions& options);

@@ -1,0 +1,88 @@
+#!/usr/bin/python3
+"""Compares a regular wave in a flume with the steady wave of the stream function: height and phase at five gauges, and
+what comes back from the beach.
+
+    python3 cases/wave_flume/compare.py [--results results] [--picture FILE.png]
+
+Tolerances: 3 % of the height, 4 degrees of phase at every gauge, 5 % reflection; exits with 1 beyond.
+"""
+import argparse
+import sys
+from pathlib import Path
+
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[2]
+if not (ROOT / "python/mudlark").is_dir():
+    sys.exit("compare.py needs Mudlark's Python package: run it where it lies, in cases/ of Mudlark's source tree.")
+sys.path.insert(0, str(ROOT / "python"))
+
+import matplotlib  # noqa: E402
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+from mudlark.results import Results  # noqa: E402
+
+LENGTH, PERIOD, HEIGHT, CREST, STILL = 4.11981, 2.0, 0.1, 0.058968, 0.5
+FROM = 20.0  # [s]; whole periods until the end
+TOLERANCES = {"height": 0.03, "phase": 4.0, "reflection": 0.05}
+
+
+def harmonics(time, level):
+    """Mean and complex amplitudes of the first three harmonics, least squares."""
+    rate = 2 * np.pi / PERIOD
+    columns = [np.ones_like(time)]
+    for order in (1, 2, 3):
+        columns += [np.cos(order * rate * time), np.sin(order * rate * time)]
+    fit = np.linalg.lstsq(np.column_stack(columns), level, rcond=None)[0]
+    return fit[0], fit[1::2] + 1j * fit[2::2]
+
+
+def reflection(places, amplitudes):
+    """Share of the first harmonic that travels back: least squares over all gauges (Mansard & Funke 1980)."""
+    k = 2 * np.pi / LENGTH
+    # level = Re(sum of a exp(-i (wt - ks)) and b exp(-i (wt + ks))); harmonics() gives conjugates of the sum
+    matrix = np.column_stack([np.exp(1j * k * places), np.exp(-1j * k * places)])
+    forth, back = np.linalg.lstsq(matrix, amplitudes, rcond=None)[0]
+    return abs(back) / abs(forth)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--results", type=Path, default=Path("results"))
+    parser.add_argument("--picture", type=Path, default=Path("wave_flume.png"))
+    arguments = parser.parse_args()
+    results = Results(arguments.results / "regular")
+    figure, axes = plt.subplots(len(results.gauge_names), 1, figsize=(9, 9), sharex=True, constrained_layout=True)
+    places, first, good = [], [], True
+    print(f"regular wave, H = {HEIGHT} m, T = {PERIOD} s on {STILL} m; from t = {FROM:g} s on")
+    for panel, name in zip(axes, results.gauge_names):
+        gauge = results.gauge(name)
+        level = next(iter(gauge.columns.values())) - STILL
+        place = float(name.split()[1]) * LENGTH
+        late = gauge.time >= FROM - 1e-9
+        mean, amplitudes = harmonics(gauge.time[late], level[late])
+        phase = np.degrees(np.angle(amplitudes[0] * np.exp(-2j * np.pi * place / LENGTH)))
+        periods = (gauge.time[late] - FROM) // PERIOD
+        heights = [np.ptp(level[late][periods == n]) for n in range(int(periods.max()))]
+        height = np.mean(heights) / HEIGHT - 1
+        print(f"  {name}: crest {level[late].max():.4f} m (exact {CREST:.4f}), height {100 * height:+.1f} %, "
+              f"phase {phase:+.1f} degrees, mean level {1e3 * mean:+.1f} mm")
+        good &= abs(height) <= TOLERANCES["height"] and abs(phase) <= TOLERANCES["phase"]
+        places.append(place)
+        first.append(amplitudes[0])
+        panel.plot(gauge.time, level, color="tab:blue", lw=1)
+        for bound in (CREST, CREST - HEIGHT):
+            panel.axhline(bound, color="black", lw=0.6, ls="--")
+        panel.set(title=name, ylabel="level [m]")
+    back = reflection(np.array(places), np.array(first))
+    good &= back <= TOLERANCES["reflection"]
+    print(f"  reflected by the beach: {100 * back:.1f} % of the wave")
+    axes[-1].set_xlabel("time [s]")
+    figure.savefig(arguments.picture, dpi=90)
+    print(f"picture: {arguments.picture}")
+    return 0 if good else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
