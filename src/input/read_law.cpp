@@ -55,18 +55,19 @@ void read_law(Section& soil, SoilBody& body) {
   if (!soil.has("law")) return;
   const Report& report = section.reading().report;
   const std::size_t before = report.size();
-  const LawReader reader = section.choice<LawReader>(
-      "type",
-      {{"drucker-prager", &read_drucker_prager},
-       {"linear-elastic", &read_linear_elastic},
-       {"modified-cam-clay", &read_modified_cam_clay},
-       {"mohr-coulomb", &read_mohr_coulomb},
-       {"mu-i", &read_mu_i},
-       {"newtonian", &read_newtonian},
-       {"sanisand", &read_sanisand},
-       {"tresca", &read_tresca},
-       {"von-mises", &read_von_mises}},
-      {}, {"neo-hookean", "sekiguchi-ohta", "hypoplastic", "umat", "bingham"});
+  const LawReader reader =
+      section.choice<LawReader>("type",
+                                {{"drucker-prager", &read_drucker_prager},
+                                 {"linear-elastic", &read_linear_elastic},
+                                 {"modified-cam-clay", &read_modified_cam_clay},
+                                 {"mohr-coulomb", &read_mohr_coulomb},
+                                 {"mu-i", &read_mu_i},
+                                 {"newtonian", &read_newtonian},
+                                 {"sanisand", &read_sanisand},
+                                 {"tresca", &read_tresca},
+                                 {"umat", &read_umat},
+                                 {"von-mises", &read_von_mises}},
+                                {}, {"neo-hookean", "sekiguchi-ohta", "hypoplastic", "bingham"});
   if (reader) body.law = reader(section);
   if (auto* law = std::get_if<MuIOptions>(&body.law)) law->grain_density = body.grain_density;
   const bool good = report.size() == before;

@@ -35,7 +35,6 @@ void read_law(Section& soil, SoilBody& body);
 double read_young_modulus(Section& section);  ///< [Pa]
 double read_poisson_ratio(Section& section);  ///< [-]
 /// Laws that yield at a constant or softening strength.
-SoilLawOptions read_modified_cam_clay(Section& law);
 SoilLawOptions read_mohr_coulomb(Section& law);
 SoilLawOptions read_tresca(Section& law);
 SoilLawOptions read_von_mises(Section& law);
@@ -43,7 +42,11 @@ SoilLawOptions read_drucker_prager(Section& law);
 /// Laws of flow; the grain density of the body is set afterwards.
 SoilLawOptions read_mu_i(Section& law);
 SoilLawOptions read_newtonian(Section& law);
+/// Laws that know void ratio and critical state.
+SoilLawOptions read_modified_cam_clay(Section& law);
 SoilLawOptions read_sanisand(Section& law);
+/// A law that the user compiled.
+SoilLawOptions read_umat(Section& law);
 /// [[wave]]: after [domain] and [water].
 void read_waves(Section& root, CaseOptions& options);
 void read_loads(Section& root, CaseOptions& options);

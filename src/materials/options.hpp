@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "materials/critical_state_options.hpp"
+#include "materials/umat_options.hpp"
 
 namespace mudlark {
 
@@ -98,6 +99,6 @@ struct NewtonianOptions {
 using SoilLawOptions =
     std::variant<LinearElasticOptions, MohrCoulombOptions, TrescaOptions, VonMisesOptions,
                  DruckerPragerOptions, MuIOptions, NewtonianOptions, ModifiedCamClayOptions,
-                 SanisandOptions>;
+                 SanisandOptions, UmatOptions>;
 
 }  // namespace mudlark

@@ -8,6 +8,7 @@
 #include "materials/newtonian.hpp"
 #include "materials/sanisand.hpp"
 #include "materials/tresca.hpp"
+#include "materials/umat.hpp"
 #include "materials/von_mises.hpp"
 
 namespace mudlark {
@@ -22,6 +23,9 @@ struct Maker {
   }
   std::unique_ptr<SoilModel> operator()(const SanisandOptions& options) const {
     return std::make_unique<Sanisand>(options);
+  }
+  std::unique_ptr<SoilModel> operator()(const UmatOptions& options) const {
+    return std::make_unique<Umat>(options);
   }
   std::unique_ptr<SoilModel> operator()(const MohrCoulombOptions& options) const {
     return std::make_unique<MohrCoulomb>(options);

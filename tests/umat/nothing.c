@@ -1,0 +1,2 @@
+/* A library without umat. */
+int answer(void) { return 42; }

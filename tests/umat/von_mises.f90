@@ -1,0 +1,35 @@
+! Von Mises without hardening: props = Young's modulus, Poisson's ratio, strength in shear.
+! statev(1): plastic engineering shear strain.
+      subroutine umat(stress, statev, ddsdde, sse, spd, scd, rpl, ddsddt, drplde, drpldt, &
+                      stran, dstran, time, dtime, temp, dtemp, predef, dpred, cmname, &
+                      ndi, nshr, ntens, nstatv, props, nprops, coords, drot, pnewdt, &
+                      celent, dfgrd0, dfgrd1, noel, npt, layer, kspt, kstep, kinc)
+      implicit none
+      character(len=80) :: cmname
+      integer :: ndi, nshr, ntens, nstatv, nprops, noel, npt, layer, kspt, kstep(4), kinc
+      double precision :: stress(ntens), statev(nstatv), ddsdde(ntens, ntens), sse, spd, scd, rpl
+      double precision :: ddsddt(ntens), drplde(ntens), drpldt, stran(ntens), dstran(ntens)
+      double precision :: time(2), dtime, temp, dtemp, predef(1), dpred(1), props(nprops)
+      double precision :: coords(3), drot(3, 3), pnewdt, celent, dfgrd0(3, 3), dfgrd1(3, 3)
+      double precision :: shear, lame, mean, root, left, deviator(6)
+      integer :: i
+      shear = props(1)/(2.0d0*(1.0d0 + props(2)))
+      lame = props(1)*props(2)/((1.0d0 + props(2))*(1.0d0 - 2.0d0*props(2)))
+      ddsdde = 0.0d0
+      ddsdde(1:3, 1:3) = lame
+      do i = 1, 3
+        ddsdde(i, i) = lame + 2.0d0*shear
+        ddsdde(i + 3, i + 3) = shear
+      end do
+      stress = stress + matmul(ddsdde, dstran)
+      mean = sum(stress(1:3))/3.0d0
+      deviator = stress
+      deviator(1:3) = deviator(1:3) - mean
+      root = sqrt(0.5d0*sum(deviator(1:3)**2) + sum(deviator(4:6)**2))
+      if (root > props(3)) then
+        left = props(3)/root
+        statev(1) = statev(1) + (root - props(3))/shear
+        stress = left*deviator
+        stress(1:3) = stress(1:3) + mean
+      end if
+      end subroutine umat
