@@ -62,8 +62,43 @@ SymTensor rotated(const SymTensor& tensor, const Matrix& rotation) {
   return to_tensor(rotation * to_matrix(tensor) * rotation.transpose());
 }
 
+/// The same about the y axis, the one rotation of plane problems.
+SymTensor rotated_in_plane(const SymTensor& t, const Matrix& rotation) {
+  const double c = rotation(0, 0), s = rotation(0, 2);
+  const double mean = 0.5 * (t.xx + t.zz), half = 0.5 * (t.xx - t.zz);
+  const double cosine = c * c - s * s, sine = 2.0 * s * c;  // of twice the angle
+  const double turned = cosine * half + sine * t.zx;
+  return {mean + turned,       t.yy,
+          mean - turned,       c * t.xy + s * t.yz,
+          c * t.yz - s * t.xy, cosine * t.zx - sine * half};
+}
+
 /// Rotation and strain increment of Hughes & Winget (1980), Eqs. 15-22, mid-step gradient.
-Matrix step_rotation(const Matrix& step_gradient, SymTensor& strain) {
+template <int D>
+Matrix step_rotation(const double* gradient, SymTensor& strain);
+
+/// In the plane in closed form: with the spin [0 w; -w 0] the rotation is [1 - w^2/4, w; -w, 1 -
+/// w^2/4] / (1 + w^2/4).
+template <>
+Matrix step_rotation<2>(const double* gradient, SymTensor& strain) {
+  const double a = 1.0 + 0.5 * gradient[0], b = 0.5 * gradient[1];
+  const double c = 0.5 * gradient[2], d = 1.0 + 0.5 * gradient[3];
+  // g (I + g/2)^-1 = 2 (I - (I + g/2)^-1), written without cancellation
+  const double twice = 2.0 / (a * d - b * c);
+  const double xx = twice * (0.5 * gradient[0] * d - b * c), xz = twice * b;
+  const double zz = twice * (0.5 * gradient[3] * a - b * c), zx = twice * c;
+  strain = {xx, 0.0, zz, 0.0, 0.0, 0.5 * (xz + zx)};
+  const double half = 0.25 * (xz - zx), scale = 1.0 / (1.0 + half * half);
+  Matrix rotation = Matrix::Identity();
+  rotation(0, 0) = rotation(2, 2) = (1.0 - half * half) * scale;
+  rotation(0, 2) = 2.0 * half * scale;
+  rotation(2, 0) = -rotation(0, 2);
+  return rotation;
+}
+
+template <>
+Matrix step_rotation<3>(const double* gradient, SymTensor& strain) {
+  const Matrix step_gradient = embed<3>(gradient, 0.0);
   const Matrix identity = Matrix::Identity();
   const Matrix middle = step_gradient * (identity + 0.5 * step_gradient).inverse();
   const Matrix spin = 0.5 * (middle - middle.transpose());
@@ -97,8 +132,9 @@ void prepare(SoilParticles<D>& points, std::size_t p, const double* gradient, St
              SymTensor& strain, SymTensor& stress, Matrix& rotation) {
   stress = SymTensor{};
   if (is_rate(measure)) {
-    rotation = step_rotation(embed<D>(gradient, 0.0), strain);
-    stress = rotated(get_tensor(points.stress, p), rotation);
+    rotation = step_rotation<D>(gradient, strain);
+    const SymTensor old = get_tensor(points.stress, p);
+    stress = D == 2 ? rotated_in_plane(old, rotation) : rotated(old, rotation);
   } else if (measure == StrainMeasure::small) {
     std::array<double, D * D> old{}, now{};
     for (int c = 0; c < D * D; ++c)

@@ -20,8 +20,9 @@ Matrix stress_of(const SoilParticles<3>& points) {
   return m;
 }
 
-SoilParticles<3> one_point(const SoilModel& law, StrainMeasure measure) {
-  SoilParticles<3> points;
+template <int D = 3>
+SoilParticles<D> one_point(const SoilModel& law, StrainMeasure measure) {
+  SoilParticles<D> points;
   points.set_history(law.history_names());
   points.resize(1);
   points.volume[0] = points.start_volume[0] = 1.0;
@@ -88,6 +89,30 @@ TEST(PlasticRotation, HenckyAndJaumannAgreeAsLongAsElasticStrainsAreSmall) {
     }
     EXPECT_LT((stress_of(a) - stress_of(b)).norm(), 5e-3 * stress_of(a).norm()) << law->name();
   }
+}
+
+TEST(PlasticRotation, AProblemInThePlaneIsTheSameInTwoAndThreeDimensions) {
+  const std::array<double, 4> plane{3e-3, -8e-3, 2.5e-2, -4e-3};  // strain and much rotation
+  Matrix space = Matrix::Zero();
+  space(0, 0) = plane[0], space(0, 2) = plane[1], space(2, 0) = plane[2], space(2, 2) = plane[3];
+  for (const SoilLawOptions& options : laws())
+    for (const StrainMeasure measure : {StrainMeasure::jaumann, StrainMeasure::hencky}) {
+      const auto law = make_soil_model(options);
+      SoilParticles<3> three = one_point(*law, measure);
+      SoilParticles<2> two = one_point<2>(*law, measure);
+      for (int i = 0; i < 30; ++i) {
+        take_step(three, space, *law, measure);
+        two.volume[0] = three.volume[0];
+        ASSERT_EQ(update_stress(two, plane, *law, measure, {1e-3, 0.0, 0.1}).failed, 0u);
+      }
+      const Matrix expected = stress_of(three);
+      const SymTensor t = get_tensor(two.stress, 0);
+      const double tolerance = 1e-11 * expected.norm();
+      EXPECT_NEAR(t.xx, expected(0, 0), tolerance) << law->name();
+      EXPECT_NEAR(t.yy, expected(1, 1), tolerance) << law->name();
+      EXPECT_NEAR(t.zz, expected(2, 2), tolerance) << law->name();
+      EXPECT_NEAR(t.zx, expected(0, 2), tolerance) << law->name();
+    }
 }
 
 }  // namespace
