@@ -30,13 +30,18 @@ BIN = 0.01            # [m]
 BARS_FRONT = 0.43     # [m] from the wall, read off as 0.42-0.44 (Bui et al. 2008)
 
 
-def run_out_law(aspect):
-    """(d - d0)/d0 of planar columns, Lube et al. (2005); None between the branches, where sources differ."""
+def run_out_law(aspect, round_column):
+    """(d - d0)/d0, Lube et al.: of cylinders (2004), of planar columns (2005); None between the branches of the
+    latter, where sources differ."""
+    if round_column:
+        return 1.24 * aspect if aspect < 1.7 else 1.6 * aspect**0.5
     return 1.2 * aspect if aspect < 1.5 else 1.9 * aspect ** (2 / 3) if aspect > 4 else None
 
 
-def height_law(aspect):
-    """h/d0 at the wall, Lube et al. (2005)."""
+def height_law(aspect, round_column):
+    """h/d0 at the wall or the axis, Lube et al. (2004, 2005)."""
+    if round_column:
+        return min(aspect, 0.88 * max(aspect, 1.7) ** (1 / 6))
     return aspect if aspect < 1.15 else 0.65 * aspect**0.4
 
 
@@ -45,7 +50,12 @@ class Run:
         self.name = Path(folder).name
         self.results = Results(folder)
         case = tomllib.loads((Path(folder) / "case.toml").read_text())
-        self.width, self.height = case["soil"][0]["shape"]["box"]["upper"]
+        shape = case["soil"][0]["shape"]
+        self.round = "polygon" in shape
+        if self.round:
+            self.width, self.height = max(corner[0] for corner in shape["polygon"]["corners"]), shape["polygon"]["top"]
+        else:
+            self.width, self.height = shape["box"]["upper"]
         self.bars = case["soil"][0]["name"] == "bars"
         self.law = case["soil"][0]["law"]["type"]
         self.aspect = self.height / self.width
@@ -54,10 +64,12 @@ class Run:
     def deposit(self, time):
         """Places and thickness [m] of the deposit, from the points' volumes."""
         points = self.results.points(time)
-        x = points["position"][:, 0]
-        edges = np.arange(0, x.max() + 2 * BIN, BIN)
-        thickness, _ = np.histogram(x, edges, weights=points["volume"])
-        return 0.5 * (edges[1:] + edges[:-1]), thickness / BIN
+        x, y = points["position"][:, 0], points["position"][:, 1]
+        place = np.hypot(x, y) if self.round else x
+        edges = np.arange(0, place.max() + 2 * BIN, BIN)
+        volume, _ = np.histogram(place, edges, weights=points["volume"])
+        area = 0.25 * np.pi * np.diff(edges**2) if self.round else BIN
+        return 0.5 * (edges[1:] + edges[:-1]), volume / area
 
     def front(self, time):
         """Where the deposit first gets thinner than THICK [m]."""
@@ -69,7 +81,7 @@ class Run:
         """Highest point within the cells beside the wall [m]; points stand for what is around them."""
         points = self.results.points(time)
         position = points["position"]
-        beside = position[position[:, 0] < 2 * BIN]
+        beside = position[np.hypot(position[:, 0], position[:, 1]) < 2 * BIN]
         start = points["initial position"]
         return float(beside[:, 2].max() + self.height - start[:, 2].max())
 
@@ -103,9 +115,11 @@ def judge(run, findings):
         return
     run.run_out = front / run.width - 1
     print(f"  run-out (d - d0)/d0 = {run.run_out:.2f}, height h/d0 = {top / run.width:.2f}")
-    if run_out_law(run.aspect):
-        findings.gate(f"run-out against {run_out_law(run.aspect):.2f}", run.run_out / run_out_law(run.aspect) - 1)
-    findings.gate(f"height against {height_law(run.aspect):.2f}", top / run.width / height_law(run.aspect) - 1)
+    law = run_out_law(run.aspect, run.round)
+    if law:
+        findings.gate(f"run-out against {law:.2f}", run.run_out / law - 1)
+    law = height_law(run.aspect, run.round)
+    findings.gate(f"height against {law:.2f}", top / run.width / law - 1)
 
 
 def draw(runs, picture):
@@ -118,13 +132,15 @@ def draw(runs, picture):
             left.plot([0, 0.2, 0.2], [0.1, 0.1, 0], color="0.6", lw=0.8, ls=":")
             left.axvspan(0.42, 0.44, color="0.9", label="experiment's front")
         elif hasattr(run, "run_out"):
-            right.loglog(run.aspect, run.run_out, "o", color="#c0562f")
+            right.loglog(run.aspect, run.run_out, "s" if run.round else "o", color="#5b8c3a" if run.round else "#c0562f")
     left.set(xlabel="x [m]", ylabel="thickness [m]", title="Bars of aluminium", xlim=0, ylim=0)
     left.legend(frameon=False, fontsize=8)
     low, high = np.linspace(0.4, 1.5), np.linspace(4, 8)
     right.loglog(low, 1.2 * low, color="black", lw=1.2, label="Lube et al. (2005): 1.2 a, 1.9 a$^{2/3}$")
     right.loglog(high, 1.9 * high ** (2 / 3), color="black", lw=1.2)
-    right.plot([], [], "o", color="#c0562f", label="computed")
+    right.loglog(low, 1.24 * low, color="#5b8c3a", lw=1.0, ls="--", label="cylinders, Lube et al. (2004): 1.24 a")
+    right.plot([], [], "o", color="#c0562f", label="computed, planar")
+    right.plot([], [], "s", color="#5b8c3a", label="computed, cylinder")
     right.set(xlabel="aspect ratio a = h0/d0", ylabel="(d - d0)/d0", title="Run-out of columns of sand")
     right.legend(frameon=False)
     for axis in (left, right):
