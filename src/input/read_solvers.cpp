@@ -1,16 +1,69 @@
 /// [soil_solver], [flow_solver], [coupling], [[load]]
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "input/sections.hpp"
 
 namespace mudlark {
 namespace {
 
-Bounds share(double upper, std::string reason) {
-  return {.lower = 0.0, .upper = upper, .lower_included = false, .reason = std::move(reason)};
+Bounds share(double upper, std::string reason, std::string cure = {}) {
+  return {.lower = 0.0,
+          .upper = upper,
+          .lower_included = false,
+          .reason = std::move(reason),
+          .cure = std::move(cure)};
 }
 
-void read_soil_solver(Section& root, SoilOptions& soil, std::optional<double> courant) {
+/// stop_when_static = { ... }, every key with a default.
+RestCriterion read_rest(Section& solver) {
+  Section section = solver.table("stop_when_static", Record::Form::inline_table);
+  RestCriterion rest;
+  rest.unbalanced_force = section.number(
+      "unbalanced_force", quantity::number,
+      share(1.0, "the unbalanced force as a share of the external one, above 0 and at most 1",
+            "1e-3 to 1e-2 is usual."),
+      rest.unbalanced_force);
+  rest.kinetic_energy = section.number(
+      "kinetic_energy", quantity::number,
+      share(1.0, "the kinetic energy as a share of the external work, above 0 and at most 1",
+            "1e-3 to 1e-2 is usual."),
+      rest.kinetic_energy);
+  rest.after = section.number("after", quantity::time,
+                              {.lower = 0.0,
+                               .upper = solver.reading().end,
+                               .reason = "a time within the run, when all loads are on"},
+                              rest.after);
+  section.finish();
+  return rest;
+}
+
+/// Local damping of both phases, scaled inertia, and when to stop.
+void read_statics(Section& section, SoilOptions& soil, bool water_flows) {
+  const Bounds coefficient{.lower = 0.0,
+                           .upper = 1.0,
+                           .upper_included = false,
+                           .reason = "a coefficient from 0 to below 1"};
+  soil.damping = section.number("damping", quantity::number, coefficient, soil.damping);
+  soil.water_damping = section.number("water_damping", quantity::number, coefficient,
+                                      std::isnan(soil.damping) ? 0.0 : soil.damping);
+  soil.mass_scaling =
+      section.number("mass_scaling", quantity::number,
+                     {.lower = 1.0, .reason = "a factor of at least 1 on the inertia of the soil"},
+                     soil.mass_scaling);
+  if (soil.mass_scaling > 1.0 && water_flows)
+    section.fail("mass_scaling",
+                 "water that flows would meet a soil of false inertia: [[water.body]] excludes it");
+  if (!section.has("stop_when_static")) return;
+  if (water_flows)
+    section.fail("stop_when_static",
+                 "it watches the soil only, and the case has flowing water ([[water.body]])");
+  soil.stop_when_static = read_rest(section);
+}
+
+void read_soil_solver(Section& root, SoilOptions& soil, bool water_flows,
+                      std::optional<double> courant) {
   Section section = root.table("soil_solver", Record::Form::block);
   soil.kernel = section.choice<Kernel>("kernel",
                                        {{"linear", Kernel::linear},
@@ -23,12 +76,7 @@ void read_soil_solver(Section& root, SoilOptions& soil, std::optional<double> co
       section.number("flip_fraction", quantity::number,
                      {.lower = 0.0, .upper = 1.0, .reason = "a share between 0 (PIC) and 1 (FLIP)"},
                      soil.flip_fraction);
-  soil.damping = section.number("damping", quantity::number,
-                                {.lower = 0.0,
-                                 .upper = 1.0,
-                                 .upper_included = false,
-                                 .reason = "a coefficient from 0 to below 1"},
-                                soil.damping);
+  read_statics(section, soil, water_flows);
   soil.courant = section.number("courant", quantity::number,
                                 share(1.0, "a share of the stable step, above 0 and at most 1"),
                                 courant.value_or(soil.courant));
@@ -71,7 +119,7 @@ void read_flow_solver(Section& root, FlowOptions& flow, std::optional<double> co
 void read_solvers(Section& root, CaseOptions& options, std::optional<double> courant) {
   Report& report = root.reading().report;
   if (options.soil)
-    read_soil_solver(root, *options.soil, courant);
+    read_soil_solver(root, *options.soil, options.flow.has_value(), courant);
   else if (root.has("soil_solver"))
     report.add(root.place("soil_solver"), "[soil_solver] is not used: the case has no [[soil]]");
   if (options.flow)

@@ -34,6 +34,7 @@ struct Summary {
   std::vector<std::pair<std::string, double>> phase_seconds;        ///< wall-clock per phase
   std::vector<std::pair<std::string, double>> conservation_errors;  ///< relative to the start
   std::vector<std::pair<std::string, double>> soil_energy;          ///< work of the soil [J]
+  std::vector<std::pair<std::string, double>> soil_statics;         ///< how far from rest, shares
   std::vector<GaugeSummary> gauges;
   double peak_memory_bytes = 0.0;  ///< all ranks together
 };

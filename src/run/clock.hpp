@@ -20,7 +20,10 @@ class Clock {
 
   double time() const { return time_; }
   std::int64_t step() const { return step_; }
-  bool finished() const { return time_ >= options_.end; }
+  bool finished() const { return stopped_ || time_ >= options_.end; }
+  /// Closes the run now, before its end. Not part of the state: a continued run goes on.
+  void stop() { stopped_ = true; }
+  bool stopped() const { return stopped_; }
 
   /// Is something that repeats every `period` due now? Period 0: always.
   static bool due(double time, double period) {
@@ -76,6 +79,7 @@ class Clock {
   std::vector<double> periods_;
   double time_ = 0.0;
   std::int64_t step_ = 0;
+  bool stopped_ = false;
 };
 
 }  // namespace mudlark

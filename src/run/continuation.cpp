@@ -10,8 +10,8 @@ namespace {
 
 constexpr std::array<std::string_view, 2> free_tables{"[time]", "[[gauge]]"};
 constexpr std::array<std::string_view, 2> solver_tables{"[soil_solver]", "[flow_solver]"};
-constexpr std::array<std::string_view, 4> free_solver_keys{"courant", "max_step", "damping",
-                                                           "pressure_tolerance"};
+constexpr std::array<std::string_view, 6> free_solver_keys{
+    "courant", "max_step", "damping", "water_damping", "stop_when_static", "pressure_tolerance"};
 
 template <std::size_t N>
 bool contains(const std::array<std::string_view, N>& names, std::string_view name) {

@@ -230,6 +230,11 @@ void Results<D>::write_summary(World<D>& world, const std::string& status,
   Summary summary = describe(world);
   summary.status = status;
   summary.message = message;
+  // Of points that flew away nothing more can be said.
+  if (world.soil() && status != "diverged")
+    if (const auto statics = world.soil()->statics())
+      summary.soil_statics = {{"unbalanced force / external force", statics->unbalanced_force},
+                              {"kinetic energy / external work", statics->kinetic_energy}};
   mudlark::write_summary(folder_, summary, world.grid().comm());
 }
 

@@ -102,7 +102,7 @@ ExitCode run_to_end(World<D>& world, Results<D>& results, const RunSettings& set
       }
     }
     results.write_checkpoint(world);
-    log.end("done");
+    log.end(clock.stopped() ? "at rest" : "done");
     results.write_summary(world, "done", "");
     return ExitCode::done;
   } catch (const DivergenceError& error) {

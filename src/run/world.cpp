@@ -82,6 +82,15 @@ void World<D>::advance(double dt) {
   clock_.advance(dt);
   effort_.largest_step = std::max(effort_.largest_step, dt);
   effort_.smallest_step = effort_.smallest_step > 0.0 ? std::min(effort_.smallest_step, dt) : dt;
+  if (at_rest()) clock_.stop();
+}
+
+/// Has the soil come to rest, where the case asks for it?
+template <int D>
+bool World<D>::at_rest() {
+  if (!soil_ || !options_.soil->stop_when_static) return false;
+  const RestCriterion& criterion = *options_.soil->stop_when_static;
+  return clock_.time() >= criterion.after && soil_->statics()->at_rest(criterion);
 }
 
 template <int D>

@@ -61,6 +61,7 @@ class World {
  private:
   void advance_flow(double dt);
   void advance_soil(double dt);
+  bool at_rest();
 
   CaseOptions options_;
   Grid<D> grid_;

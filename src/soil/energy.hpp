@@ -35,17 +35,17 @@ struct SoilEnergy {
 /// Adds what one face does in a step dt [s]: force times new velocity is the work of all forces on
 /// grains and water, internal ones included (`external` takes it; internal work is added to it
 /// later); momentum that the forces gave and the face did not get went into drag and damping.
-/// `water_density` [kg/m3] gives the face its porosity.
+/// `water_density` [kg/m3] gives the face its porosity, `inertia` [-] scales its mass.
 inline void add_face_work(const NodeSums& sums, const NodeMotion& motion, double water_density,
-                          double dt, SoilEnergy& energy) {
+                          double inertia, double dt, SoilEnergy& energy) {
   const double porosity =
       sums.water_mass > 0.0 ? std::min(1.0, sums.water_mass / (water_density * sums.volume)) : 0.0;
   const double water_force = porosity * sums.water_force;
   const double grain_force = sums.mixture_force - water_force;
   const double work =
       dt * (grain_force * motion.grain_velocity + water_force * motion.water_velocity);
-  const double gained = sums.grain_mass * motion.grain_change * motion.grain_velocity +
-                        sums.water_mass * motion.water_change * motion.water_velocity;
+  const double gained = inertia * (sums.grain_mass * motion.grain_change * motion.grain_velocity +
+                                   sums.water_mass * motion.water_change * motion.water_velocity);
   const double slip = motion.water_velocity - motion.grain_velocity;
   const double drag = dt * sums.drag * slip * slip;
   energy.external += work;

@@ -51,6 +51,13 @@ struct SurfaceLoad {
 
 enum class Kernel { linear, quadratic, composite };
 enum class Transfer { flip, apic };
+/// When the soil counts as at rest (NUMERICS A6).
+struct RestCriterion {
+  double unbalanced_force = 1e-3;  ///< largest ||F_ext - F_int|| / ||F_ext|| on the faces [-]
+  double kinetic_energy = 1e-3;    ///< largest kinetic energy over the external work so far [-]
+  double after = 0.0;              ///< [s], not before: loads may still come
+};
+
 enum class LoadForm { virtual_stress, facets };
 
 struct SoilOptions {
@@ -62,7 +69,12 @@ struct SoilOptions {
   Kernel kernel = Kernel::composite;
   Transfer transfer = Transfer::flip;
   double flip_fraction = 0.99;  ///< share of FLIP in the velocity update [-], the rest is PIC
-  double damping = 0.0;         ///< local non-viscous damping coefficient [-] (Cundall)
+  double damping = 0.0;         ///< local non-viscous damping of the grains [-] (Cundall 1987)
+  std::optional<double> water_damping;  ///< the same of the pore water [-]; nothing: as `damping`
+  /// Factor on the inertia of grains and pore water, not on their weight [-]; the step grows by its
+  /// square root. For slow motion only: see SoilSolver::statics().
+  double mass_scaling = 1.0;
+  std::optional<RestCriterion> stop_when_static;
   /// Share of the largest stable step [-]; that is 1.0 (composite), 0.8 (quadratic) or 0.65
   /// (linear) of the time in which the fastest wave crosses a cell.
   double courant = 0.5;

@@ -92,7 +92,12 @@ typename SoilSolver<D>::Totals SoilSolver<D>::totals() const {
   mine[3] = removed_grain_mass_;
   std::array<double, 5 + D> all{};
   MPI_Allreduce(mine.data(), all.data(), 5 + D, MPI_DOUBLE, MPI_SUM, grid_->comm());
-  Totals totals{total_grain_mass, all[1], all[2], {}, all[3], static_cast<long long>(all[4])};
+  Totals totals{total_grain_mass,
+                all[1],
+                options_.mass_scaling * all[2],
+                {},
+                all[3],
+                static_cast<long long>(all[4])};
   for (int a = 0; a < D; ++a) totals.momentum[a] = all[static_cast<std::size_t>(5 + a)];
   return totals;
 }

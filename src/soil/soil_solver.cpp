@@ -182,17 +182,20 @@ template <int D>
 void SoilSolver<D>::solve_face(const NodeSums& sums, double dt, double face_volume,
                                NodeMotion& motion) const {
   motion = NodeMotion{};
-  const double ms = sums.grain_mass, ml = sums.water_mass;
   if (sums.volume < lightest_face * face_volume) return;
   const double porosity =
-      ml > 0.0 ? std::min(1.0, ml / (options_.water_density * sums.volume)) : 0.0;
+      sums.water_mass > 0.0
+          ? std::min(1.0, sums.water_mass / (options_.water_density * sums.volume))
+          : 0.0;
   const double water_force = porosity * sums.water_force;
   const double grain_force = sums.mixture_force - water_force;
-  const double grain_rhs = sums.grain_momentum + dt * grain_force;
-  const double water_rhs = sums.water_momentum + dt * water_force;
+  const double inertia = options_.mass_scaling;
+  const double ms = inertia * sums.grain_mass, ml = inertia * sums.water_mass;
+  const double grain_rhs = inertia * sums.grain_momentum + dt * grain_force;
+  const double water_rhs = inertia * sums.water_momentum + dt * water_force;
   const bool locked = surface_.sealed() && sums.volume < rim_share * face_volume;
-  const double old_grain = sums.grain_momentum / ms,
-               old_water = ml > 0.0 ? sums.water_momentum / ml : old_grain;
+  const double old_grain = sums.grain_momentum / sums.grain_mass,
+               old_water = ml > 0.0 ? sums.water_momentum / sums.water_mass : old_grain;
   double vs, vl;
   if (ml <= 0.0) {
     vs = vl = grain_rhs / ms;
@@ -205,11 +208,13 @@ void SoilSolver<D>::solve_face(const NodeSums& sums, double dt, double face_volu
   }
   // Local damping (Cundall 1987): a share of the unbalanced force against the motion, each phase by
   // itself.
-  const auto damped = [&](double now, double old) {
+  const auto damped = [](double coefficient, double now, double old) {
+    if (coefficient == 0.0) return now;
     const double change = now - old;
-    return now - options_.damping * std::copysign(std::abs(change), old);
+    return now - coefficient * std::copysign(std::abs(change), old);
   };
-  if (options_.damping > 0.0) vs = damped(vs, old_grain), vl = damped(vl, old_water);
+  vs = damped(options_.damping, vs, old_grain);
+  vl = ml > 0.0 ? damped(options_.water_damping.value_or(options_.damping), vl, old_water) : vs;
   motion.grain_velocity = vs;
   motion.grain_change = vs - old_grain;
   motion.water_velocity = vl;
@@ -251,7 +256,8 @@ void SoilSolver<D>::solve_nodes(double dt) {
     for_each(solved_faces(d), [&](const Index<D>& face) {
       const std::ptrdiff_t at = grid_->offset(face);
       mean[at] += dt / length_ * motion[at].grain_velocity;
-      add_face_work(sums[at], motion[at], options_.water_density, dt, recent_energy_);
+      add_face_work(sums[at], motion[at], options_.water_density, options_.mass_scaling, dt,
+                    recent_energy_);
     });
   }
   if (exchanges_halos()) halo_.exchange(as_doubles<NodeMotion, D>(motion_), node_motions);

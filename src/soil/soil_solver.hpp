@@ -12,6 +12,7 @@
 #include "soil/nodes.hpp"
 #include "soil/options.hpp"
 #include "soil/particles.hpp"
+#include "soil/statics.hpp"
 #include "soil/surface_load.hpp"
 #include "soil/transfer.hpp"
 
@@ -64,12 +65,16 @@ class SoilSolver {
 
   struct Totals {
     double grain_mass = 0.0, water_mass = 0.0;  ///< [kg]
-    double kinetic_energy = 0.0;                ///< [J]
+    double kinetic_energy = 0.0;                ///< with the scaled inertia [J]
     Vec<D> momentum{};                          ///< [kg m/s]
     double removed_grain_mass = 0.0;            ///< left through open sides [kg]
     long long points = 0;
   };
   Totals totals() const;  ///< over all ranks; collective
+
+  /// How far from rest the soil is, with the loads at the end of the step; nothing before the first
+  /// step. Collective.
+  std::optional<Statics> statics();
 
   /// Work since the start, over all ranks; collective.
   const SoilEnergy& energy() {
@@ -93,6 +98,7 @@ class SoilSolver {
   void solve_nodes(double dt);
   void solve_face(const NodeSums& sums, double dt, double face_volume, NodeMotion& motion) const;
   void update_points(double dt);
+  double squared_force_on_free_faces();
   void settle_energy();
   void note_failed_stress(std::size_t body, const StressResult& result);
   void report_bad_point(double largest_speed, std::size_t failed) const;

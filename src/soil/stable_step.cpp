@@ -119,8 +119,10 @@ double stable_step(const Grid<D>& grid, const SoilOptions& options,
     const double modulus = bounds[b][3] * stiffer;
     const double n = std::clamp(-bounds[b][0], 0.01, 0.99);
     const double wave2 = fastest_wave_squared(modulus, n, body.grain_density, body.water_density,
-                                              options.water_bulk_modulus);
-    const double viscosity = laws[b]->wave_viscosity() / ((1.0 - n) * body.grain_density);
+                                              options.water_bulk_modulus) /
+                         options.mass_scaling;
+    const double viscosity =
+        laws[b]->wave_viscosity() / (options.mass_scaling * (1.0 - n) * body.grain_density);
     const double wave = damped_wave(std::sqrt(wave2), viscosity, limit * grid.smallest_spacing());
     fastest = std::max(fastest, wave + std::sqrt(speed2));
   }

@@ -46,6 +46,31 @@ TEST_F(Endings, AStateOfAnotherSoilIsRefused) {
   EXPECT_NE(other.output.find("belong to another case"), std::string::npos) << other.output;
 }
 
+TEST_F(Endings, ARunThatWaitsForRestEndsThereAndSaysHowCloseItIs) {
+  ASSERT_EQ(run("rest", 1, "out").code, 0);
+  EXPECT_EQ(status_of(results("out")), "\"done\"");
+  const double time = std::stod(entry_of(results("out"), "time [s]"));
+  EXPECT_GT(time, 0.1);
+  EXPECT_LT(time, 20.0);
+  EXPECT_LT(std::stod(entry_of(results("out"), "unbalanced force / external force")), 1e-3);
+  EXPECT_LT(std::stod(entry_of(results("out"), "kinetic energy / external work")), 1e-4);
+  const Series top = series_of(results("out") / "gauges/top.csv");
+  EXPECT_EQ(top.rows.back().front(), time);  // gauges and fields have the last state
+  // rho g (H^2 - (H - z)^2) / (2 M) for z = 0.95 m, to first order in the strain
+  EXPECT_NEAR(top.rows.back()[1], 9.81 * 1590.0 * 0.99750 / (2.0 * 1.346154e6), 2e-4);
+}
+
+TEST_F(Endings, ARunThatWaitsForRestIsTheSameInTwoParts) {
+  ASSERT_EQ(run("rest", 1, "whole").code, 0);
+  ASSERT_EQ(run("rest", 1, "parts", {"--until", "0.4"}).code, 0);
+  ASSERT_EQ(run("rest", 1, "parts", {"--resume", "--until", "100"}).code, 0);
+  for (const char* what : {"time [s]", "unbalanced force / external force"})
+    EXPECT_EQ(entry_of(results("parts"), what), entry_of(results("whole"), what)) << what;
+  const Series whole = series_of(results("whole") / "gauges/top.csv"),
+               parts = series_of(results("parts") / "gauges/top.csv");
+  EXPECT_EQ(whole.rows, parts.rows);
+}
+
 double error_of(const fs::path& results, const std::string& what) {
   const std::string text = entry_of(results, what);
   return text.empty() || text == "null" ? HUGE_VAL : std::stod(text);
