@@ -82,11 +82,22 @@ void read_soil_solver(Section& root, SoilOptions& soil, bool water_flows,
                                 courant.value_or(soil.courant));
   soil.max_step =
       section.number_if_set("max_step", quantity::time, positive("a step needs a length above 0"));
+  soil.method = section.choice<TimeMethod>(
+      "method",
+      {{"explicit", TimeMethod::explicit_steps}, {"implicit", TimeMethod::implicit_steps}},
+      soil.method);
+  soil.step_tolerance = section.number(
+      "step_tolerance", quantity::number,
+      share(1.0, "the error of an implicit step as a share of the largest displacement so far"),
+      soil.step_tolerance);
   soil.load_form = section.choice<LoadForm>(
       "load_form", {{"virtual-stress", LoadForm::virtual_stress}, {"facets", LoadForm::facets}},
       soil.load_form);
   if (section.has("body_acceleration"))
     soil.body_acceleration = section.varying_per_axis("body_acceleration", quantity::acceleration);
+  if (soil.method == TimeMethod::implicit_steps && soil.load_form == LoadForm::facets)
+    section.fail("load_form", "implicit steps load the soil by a virtual stress",
+                 "Leave the key out.");
   section.finish();
 }
 
@@ -118,9 +129,14 @@ void read_flow_solver(Section& root, FlowOptions& flow, std::optional<double> co
 
 void read_solvers(Section& root, CaseOptions& options, std::optional<double> courant) {
   Report& report = root.reading().report;
-  if (options.soil)
+  if (options.soil) {
     read_soil_solver(root, *options.soil, options.flow.has_value(), courant);
-  else if (root.has("soil_solver"))
+    if (options.soil->method == TimeMethod::implicit_steps && options.flow)
+      report.add(
+          root.place("soil_solver"),
+          "soil_solver.method = \"implicit\" has no inertia and cannot follow flowing water; "
+          "leave out [[water.body]] or write method = \"explicit\"");
+  } else if (root.has("soil_solver"))
     report.add(root.place("soil_solver"), "[soil_solver] is not used: the case has no [[soil]]");
   if (options.flow)
     read_flow_solver(root, *options.flow, courant);

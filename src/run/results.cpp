@@ -216,7 +216,8 @@ Summary Results<D>::describe(World<D>& world) const {
                            {"mapping", effort.mapping},
                            {"output", effort.output}};
   summary.conservation_errors = conservation_errors(world);
-  if (world.soil()) summary.soil_energy = soil_energy(*world.soil());
+  if (world.soil() && !world.soil()->is_implicit())
+    summary.soil_energy = soil_energy(*world.soil());
   for (const GaugeWriter& gauge : gauges_)
     summary.gauges.push_back({gauge.name(), gauge.columns(), gauge.extremes()});
   summary.peak_memory_bytes = peak_memory(world.grid().comm());

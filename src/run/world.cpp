@@ -8,9 +8,6 @@
 namespace mudlark {
 namespace {
 
-/// Without flow the outer step only says how often points are sorted and loads sampled.
-constexpr double soil_steps_per_outer_step = 50.0;
-
 std::vector<double> gauge_periods(const CaseOptions& options) {
   std::vector<double> periods;
   for (const GaugeOptions& gauge : options.gauges)
@@ -72,7 +69,7 @@ void World<D>::restore() {
 template <int D>
 double World<D>::stable_step() {
   if (flow_) return flow_->stable_step(medium_);
-  return soil_steps_per_outer_step * soil_->stable_step();
+  return soil_->outer_step();
 }
 
 template <int D>
@@ -114,7 +111,9 @@ void World<D>::advance_soil(double dt) {
   {
     const Stopwatch watch(effort_.soil);
     soil_->begin_step(clock_.time(), dt, coupling_ ? &*load_ : nullptr);
-    const double count = std::max(1.0, std::ceil(dt / soil_->stable_step() * (1.0 - 1e-12)));
+    const double count = soil_->is_implicit()
+                             ? 1.0
+                             : std::max(1.0, std::ceil(dt / soil_->stable_step() * (1.0 - 1e-12)));
     const double sub = dt / count;
     for (std::int64_t i = 0; i < static_cast<std::int64_t>(count); ++i) soil_->advance(sub);
     effort_.soil_steps += static_cast<std::int64_t>(count);

@@ -58,6 +58,8 @@ struct RestCriterion {
   double after = 0.0;              ///< [s], not before: loads may still come
 };
 
+/// explicit: small steps with inertia. implicit: quasi-static steps of any length.
+enum class TimeMethod { explicit_steps, implicit_steps };
 enum class LoadForm { virtual_stress, facets };
 
 struct SoilOptions {
@@ -79,6 +81,9 @@ struct SoilOptions {
   /// (linear) of the time in which the fastest wave crosses a cell.
   double courant = 0.5;
   std::optional<double> max_step;  ///< [s]
+  TimeMethod method = TimeMethod::explicit_steps;
+  /// Error of an implicit step as a share of the largest displacement so far [-].
+  double step_tolerance = 3e-4;
   LoadForm load_form = LoadForm::virtual_stress;
   /// Acceleration beside gravity, x y z [m/s2], of grains and pore water.
   std::optional<std::array<Varying, 3>> body_acceleration;

@@ -140,6 +140,7 @@ void SoilSolver<D>::begin_step(double time, double length, const FluidLoad<D>* w
 
 template <int D>
 void SoilSolver<D>::advance(double dt) {
+  if (is_implicit()) return advance_implicitly(dt, 0);
   if (travelled_ > longest_travel) {
     redistribute();
     surface_.resample(active_);

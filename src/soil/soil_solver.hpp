@@ -36,6 +36,10 @@ class SoilSolver {
   /// drag-free compression wave, whichever is faster. Permeability does not enter. Same on all
   /// ranks.
   double stable_step() const;
+  /// How long an outer step may be [s]: some explicit steps, or one implicit step whose error is
+  /// within the tolerance. Collective.
+  double outer_step() const;
+  bool is_implicit() const { return options_.method == TimeMethod::implicit_steps; }
   /// Opens an outer step [time, time + length]: redistributes and samples the loads at both ends.
   void begin_step(double time, double length, const FluidLoad<D>* water);
   /// One step of `dt` [s] inside the outer step. Throws DivergenceError on all ranks with place and
@@ -89,6 +93,7 @@ class SoilSolver {
     for (std::size_t b = 0; b < points_.size(); ++b) points_[b].archive(a, options_.bodies[b].name);
     a.number("soil/removed grain mass", removed_grain_mass_);
     a.number("soil/time", time_);
+    a.number("soil/next implicit step", next_step_);
   }
 
  private:
@@ -100,6 +105,7 @@ class SoilSolver {
   void update_points(double dt);
   double squared_force_on_free_faces();
   void settle_energy();
+  void advance_implicitly(double dt, int cuts);
   void note_failed_stress(std::size_t body, const StressResult& result);
   void report_bad_point(double largest_speed, std::size_t failed) const;
 
@@ -122,6 +128,7 @@ class SoilSolver {
   double removed_grain_mass_ = 0.0;
   SoilEnergy energy_;          ///< up to the open outer step, over all ranks
   SoilEnergy recent_energy_;   ///< of this rank since then
+  double next_step_ = 0.0;     ///< that the last implicit step recommends [s]
   std::string failed_stress_;  ///< the point that a law could not integrate, in words
 };
 

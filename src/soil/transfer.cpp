@@ -8,55 +8,6 @@
 namespace mudlark {
 namespace {
 
-/// Calls f with the kernel as a type, so that loops are compiled for it.
-template <class F>
-void with_kernel(Kernel kernel, F&& f) {
-  switch (kernel) {
-    case Kernel::linear:
-      return f(LinearKernel{});
-    case Kernel::quadratic:
-      return f(QuadraticKernel{});
-    case Kernel::composite:
-      return f(CompositeKernel{});
-  }
-}
-
-template <int D>
-Vec<D> inverse(const Vec<D>& spacing) {
-  Vec<D> out;
-  for (int a = 0; a < D; ++a) out[a] = 1.0 / spacing[a];
-  return out;
-}
-
-/// Position in cells from the domain's lower corner.
-template <int D>
-Vec<D> in_cells(const Grid<D>& grid, const Vec<D>& per_spacing, const Vec<D>& position) {
-  Vec<D> out;
-  for (int a = 0; a < D; ++a) out[a] = (position[a] - grid.lower()[a]) * per_spacing[a];
-  return out;
-}
-
-/// Value and gradient of a cell field at a point.
-template <int D>
-struct Sample {
-  double value = 0.0;
-  Vec<D> gradient{};
-};
-
-template <int D, class K>
-Sample<D> sample(const Grid<D>& grid, const PointSplines<D, K>& splines, const Vec<D>& per_spacing,
-                 const CellField<D>* field) {
-  Sample<D> s;
-  if (!field) return s;
-  const double* values = field->data();
-  splines.template for_each_node<-1>(
-      grid, per_spacing, [&](std::ptrdiff_t at, double w, const Vec<D>& g, const Vec<D>&) {
-        s.value += w * values[at];
-        s.gradient += values[at] * g;
-      });
-  return s;
-}
-
 /// What one point gives to its nodes, apart from what depends on the component.
 template <int D>
 struct PointSource {

@@ -1,0 +1,47 @@
+#pragma once
+/// One quasi-static step of soil and pore water, of any length.
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "materials/soil_model.hpp"
+#include "soil/implicit_unknowns.hpp"
+#include "soil/transfer.hpp"
+
+namespace mudlark {
+
+/// What an implicit step works on; lives as long as the step.
+template <int D>
+struct ImplicitProblem {
+  const Grid<D>& grid;
+  const SoilOptions& options;
+  const std::vector<BodyConstants>& constants;
+  const std::vector<std::unique_ptr<SoilModel>>& laws;
+  std::vector<SoilParticles<D>>& bodies;  ///< state at the start; at the end after `solve`
+  SurfacePressure<D> surface;             ///< at the end of the step
+  double time = 0.0, dt = 0.0;            ///< start and length [s]
+};
+
+struct ImplicitOutcome {
+  bool converged = false;
+  std::string problem;          ///< why not
+  int iterations = 0;           ///< of Newton's method
+  double largest_step = 0.0;    ///< way of a point [m]
+  double largest_way = 0.0;     ///< of a point since its start [m]
+  double largest_change = 0.0;  ///< of a point's velocity against the last step [m/s]
+  double largest_strain = 0.0;  ///< of a component of the displacement gradient [-]
+};
+
+/// Backward Euler without inertia: at the end of the step the stresses balance weight and loads,
+/// and the pore water flows by Darcy's law (docs/methods/soil.md, implicit steps). Unknowns are the
+/// displacements of grains and of water through faces and the rise of pore pressure in cells, with
+/// the points' own splines: composite ones make the divergence of the former exactly a sum of the
+/// latter, so nothing locks. Newton's method (PETSc's SNES, tangents of the laws by differences)
+/// with a direct solver (MUMPS). On failure the points are as they were. Collective.
+template <int D>
+ImplicitOutcome solve_implicit_step(const ImplicitProblem<D>& problem);
+
+extern template ImplicitOutcome solve_implicit_step(const ImplicitProblem<2>&);
+extern template ImplicitOutcome solve_implicit_step(const ImplicitProblem<3>&);
+
+}  // namespace mudlark
