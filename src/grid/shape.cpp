@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "grid/triangle_mesh.hpp"
+
 namespace mudlark {
 namespace {
 
@@ -57,6 +59,8 @@ bool inside(const BelowShape& below, const Point3& position) {
   }
   return position[2] <= line.back()[1];
 }
+
+bool inside(const StlShape& stl, const Point3& position) { return stl.mesh->contains(position); }
 
 bool inside(const UnionShape& whole, const Point3& position) {
   return std::any_of(whole.parts.begin(), whole.parts.end(),
@@ -147,6 +151,8 @@ BoxShape bounds_of(const BelowShape& below) {
   return box;
 }
 
+BoxShape bounds_of(const StlShape& stl) { return {stl.mesh->lower(), stl.mesh->upper()}; }
+
 BoxShape bounds_of(const UnionShape& whole) {
   BoxShape box{everywhere.upper, everywhere.lower};
   for (const Shape& part : whole.parts) {
@@ -171,6 +177,16 @@ double fraction_inside(const Shape& shape, const Point3& lower, const Point3& up
                        int dimension) {
   if (const auto* box = std::get_if<BoxShape>(&shape.form))
     return box_fraction(*box, lower, upper, dimension);
+  if (const auto* stl = std::get_if<StlShape>(&shape.form)) {
+    Point3 middle{};
+    double reach2 = 0.0;
+    for (std::size_t a = 0; a < 3; ++a) {
+      middle[a] = 0.5 * (lower[a] + upper[a]);
+      reach2 += 0.25 * (upper[a] - lower[a]) * (upper[a] - lower[a]);
+    }
+    const double away = stl->mesh->distance_to(middle).distance;
+    if (away * away > reach2) return away < 0.0 ? 1.0 : 0.0;
+  }
   return sampled_fraction(shape, lower, upper, dimension);
 }
 

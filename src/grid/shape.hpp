@@ -9,6 +9,7 @@
 namespace mudlark {
 
 struct Shape;
+class TriangleMesh;
 
 /// All lengths in metres; positions are (x, y, z), in 2D y = 0 and boxes span every y.
 struct BoxShape {
@@ -36,6 +37,10 @@ struct CylinderShape {
 struct BelowShape {
   std::vector<std::array<double, 2>> line;
 };
+/// Inside of a closed surface of triangles; 3D only.
+struct StlShape {
+  std::shared_ptr<const TriangleMesh> mesh;
+};
 struct UnionShape {
   std::vector<Shape> parts;
 };
@@ -45,7 +50,7 @@ struct DifferenceShape {
 };
 
 struct Shape {
-  std::variant<BoxShape, PolygonShape, SphereShape, CylinderShape, BelowShape, UnionShape,
+  std::variant<BoxShape, PolygonShape, SphereShape, CylinderShape, BelowShape, StlShape, UnionShape,
                DifferenceShape>
       form;
 
@@ -53,7 +58,8 @@ struct Shape {
 };
 
 /// Share of the box [lower, upper] that lies inside the shape, 0..1: exact for boxes, by regular
-/// sampling (16 points per axis in 2D, 8 in 3D) otherwise.
+/// sampling (16 points per axis in 2D, 8 in 3D) otherwise; surfaces of triangles are sampled only
+/// where they may cross the box.
 double fraction_inside(const Shape& shape, const Point3& lower, const Point3& upper, int dimension);
 
 /// Smallest box around a shape; sides to which the shape has no end are infinite.

@@ -157,25 +157,30 @@ std::optional<Shape> read_form(Section& shape, const Place& place, int depth) {
   for (const std::string key :
        {"box", "polygon", "circle", "sphere", "cylinder", "below", "union", "difference", "stl"})
     if (shape.has(key)) found.push_back(key);
+  if (found == std::vector<std::string>{"stl"}) {
+    if (flat) {
+      shape.fail("stl", "a surface in space has no place in two dimensions",
+                 "Write a polygon, or dimension = 3 in [domain].");
+      for (const char* key : {"scale", "offset"}) shape.has(key);
+      shape.finish();
+      return {};
+    }
+    auto form = read_stl(shape);
+    shape.finish();
+    return form;
+  }
   shape.finish();
   if (found.size() != 1) {
     shape.reading().report.add(
         place,
-        fmt::format(
-            "{} needs exactly one form\n  (box, polygon, circle, sphere, cylinder, below, "
-            "union, difference). For example {{ box = {{ lower = [0, 0], upper = [1, 1] }} }}.",
-            shape.path()));
+        fmt::format("{} needs exactly one form\n  (box, polygon, circle, sphere, cylinder, below, "
+                    "union, difference, stl). For example {{ box = {{ lower = [0, 0], upper = [1, "
+                    "1] }} }}.",
+                    shape.path()));
     return {};
   }
   const std::string& key = found.front();
   if (key == "union" || key == "difference") return read_parts(shape, key, depth);
-  if (key == "stl") {
-    shape.fail(
-        key,
-        "not available yet; available: box, polygon, circle, sphere, cylinder, below, union, "
-        "difference");
-    return {};
-  }
   if (flat ? key == "sphere" || key == "cylinder" : key == "circle") {
     shape.fail(key, fmt::format("this form does not exist in {} dimensions", flat ? 2 : 3),
                flat ? "Write circle." : "Write sphere or cylinder.");

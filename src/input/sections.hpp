@@ -56,6 +56,8 @@ void read_gauges(Section& root, CaseOptions& options);
 
 /// The shape below `key`, inside the domain; nothing after a mistake.
 std::optional<Shape> read_shape(Section& section, std::string_view key);
+/// { stl = "file.stl", scale = , offset = } of a shape; nothing after a mistake.
+std::optional<Shape> read_stl(Section& shape);
 /// kappa [m2] from intrinsic_permeability or, with the water's density [kg/m3] and viscosity [Pa
 /// s], from hydraulic_conductivity k = kappa rho g / mu with g = 9.81 m/s2 whatever the case's
 /// gravity.
