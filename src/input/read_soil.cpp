@@ -32,14 +32,12 @@ GeostaticStress read_geostatic(Section& section) {
   return stress;
 }
 
-SymTensor read_tensor(Section& section) {
-  SymTensor stress;
-  const auto component = [&](std::string_view key) {
-    return section.number(key, quantity::stress, {}, 0.0);
-  };
-  stress.xx = component("xx"), stress.yy = component("yy"), stress.zz = component("zz");
-  stress.zx = component("zx");
-  if (section.reading().dimension == 3) stress.xy = component("xy"), stress.yz = component("yz");
+StressField read_stress_field(Section& section) {
+  StressField stress;
+  constexpr std::array<std::string_view, 6> names{"xx", "yy", "zz", "xy", "yz", "zx"};
+  for (const std::size_t c : {0, 1, 2, 5, 3, 4})
+    if (section.reading().dimension == 3 || (names[c] != "xy" && names[c] != "yz"))
+      stress.component[c] = section.varying(names[c], quantity::stress, {}, 0.0);
   return stress;
 }
 
@@ -60,7 +58,7 @@ void read_initial_stress(Section& soil, SoilBody& body) {
     if (find_entry(*table, "type"))
       body.initial_stress = read_geostatic(section);
     else
-      body.initial_stress = read_tensor(section);
+      body.initial_stress = read_stress_field(section);
     section.finish();
   } else {
     soil.fail(

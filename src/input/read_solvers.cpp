@@ -16,10 +16,8 @@ Bounds share(double upper, std::string reason, std::string cure = {}) {
           .cure = std::move(cure)};
 }
 
-/// stop_when_static = { ... }, every key with a default.
-RestCriterion read_rest(Section& solver) {
-  Section section = solver.table("stop_when_static", Record::Form::inline_table);
-  RestCriterion rest;
+/// How small unbalanced force and kinetic energy are at rest.
+void read_tolerances(Section& section, RestCriterion& rest) {
   rest.unbalanced_force = section.number(
       "unbalanced_force", quantity::number,
       share(1.0, "the unbalanced force as a share of the external one, above 0 and at most 1",
@@ -30,6 +28,13 @@ RestCriterion read_rest(Section& solver) {
       share(1.0, "the kinetic energy as a share of the external work, above 0 and at most 1",
             "1e-3 to 1e-2 is usual."),
       rest.kinetic_energy);
+}
+
+/// stop_when_static = { ... }, every key with a default.
+RestCriterion read_rest(Section& solver) {
+  Section section = solver.table("stop_when_static", Record::Form::inline_table);
+  RestCriterion rest;
+  read_tolerances(section, rest);
   rest.after = section.number("after", quantity::time,
                               {.lower = 0.0,
                                .upper = solver.reading().end,
@@ -37,6 +42,21 @@ RestCriterion read_rest(Section& solver) {
                               rest.after);
   section.finish();
   return rest;
+}
+
+/// start_in_equilibrium = { longest = ..., ... }
+EquilibriumStart read_equilibrium(Section& solver, const Bounds& coefficient) {
+  Section section = solver.table("start_in_equilibrium", Record::Form::inline_table);
+  EquilibriumStart start;
+  start.longest =
+      section.number("longest", quantity::time,
+                     positive("the simulated time in which the soil must come to rest",
+                              "Some ten times that in which a compression wave goes up and down."));
+  read_tolerances(section, start.rest);
+  start.damping = section.number("damping", quantity::number, coefficient, start.damping);
+  start.reset_displacements = section.flag("reset_displacements", start.reset_displacements);
+  section.finish();
+  return start;
 }
 
 /// Local damping of both phases, scaled inertia, and when to stop.
@@ -55,6 +75,12 @@ void read_statics(Section& section, SoilOptions& soil, bool water_flows) {
   if (soil.mass_scaling > 1.0 && water_flows)
     section.fail("mass_scaling",
                  "water that flows would meet a soil of false inertia: [[water.body]] excludes it");
+  if (section.has("start_in_equilibrium")) {
+    if (water_flows)
+      section.fail("start_in_equilibrium",
+                   "it is sought for soil alone, and the case has flowing water ([[water.body]])");
+    soil.start_in_equilibrium = read_equilibrium(section, coefficient);
+  }
   if (!section.has("stop_when_static")) return;
   if (water_flows)
     section.fail("stop_when_static",
@@ -95,6 +121,9 @@ void read_soil_solver(Section& root, SoilOptions& soil, bool water_flows,
       soil.load_form);
   if (section.has("body_acceleration"))
     soil.body_acceleration = section.varying_per_axis("body_acceleration", quantity::acceleration);
+  if (soil.method == TimeMethod::implicit_steps)
+    for (const std::string_view key : {"mass_scaling", "stop_when_static", "start_in_equilibrium"})
+      section.forbid(key, "implicit steps have no inertia: they are at rest after each step");
   if (soil.method == TimeMethod::implicit_steps && soil.load_form == LoadForm::facets)
     section.fail("load_form", "implicit steps load the soil by a virtual stress",
                  "Leave the key out.");

@@ -24,6 +24,8 @@ ExitCode run_in(const CaseOptions& options, const RunSettings& settings) {
     archive.finish();
     world.restore();
     resumed_at = world.clock().time();
+  } else if (world.soil()) {
+    world.soil()->find_equilibrium();
   }
   Results<D> results(world, settings.results, resumed_at);
   return run_to_end(world, results, settings);

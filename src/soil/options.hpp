@@ -19,6 +19,11 @@ struct GeostaticStress {
   double lateral_coefficient = -1.0;  ///< K0 [-]; negative: what the law says
 };
 
+/// Stress that varies in space, xx yy zz xy yz zx [Pa]; of time zero.
+struct StressField {
+  std::array<Varying, 6> component{};
+};
+
 /// One body of soil.
 struct SoilBody {
   std::string name;
@@ -31,8 +36,8 @@ struct SoilBody {
   int points_per_cell = 4;  ///< total per full cell; a D-th power (4, 9, 16 in 2D; 8, 27, 64 in 3D)
   SoilLawOptions law;
   StrainMeasure strain = StrainMeasure::hencky;
-  std::variant<SymTensor, GeostaticStress> initial_stress =
-      SymTensor{};  ///< effective, tension positive [Pa]
+  /// Effective, tension positive [Pa].
+  std::variant<SymTensor, GeostaticStress, StressField> initial_stress = SymTensor{};
   std::optional<Varying>
       initial_pore_pressure;  ///< [Pa], added to the hydrostatic one of GeostaticStress
   std::array<Varying, 3> initial_velocity{};  ///< [m/s] per axis, grains and pore water alike
@@ -60,6 +65,15 @@ struct RestCriterion {
 
 /// explicit: small steps with inertia. implicit: quasi-static steps of any length.
 enum class TimeMethod { explicit_steps, implicit_steps };
+
+/// Search for the state of rest from which a case starts.
+struct EquilibriumStart {
+  RestCriterion rest;
+  double damping = 0.7;  ///< of grains and pore water while it is sought [-]
+  double longest = 0.0;  ///< simulated time after which there is none [s]
+  bool reset_displacements = true;
+};
+
 enum class LoadForm { virtual_stress, facets };
 
 struct SoilOptions {
@@ -77,6 +91,7 @@ struct SoilOptions {
   /// square root. For slow motion only: see SoilSolver::statics().
   double mass_scaling = 1.0;
   std::optional<RestCriterion> stop_when_static;
+  std::optional<EquilibriumStart> start_in_equilibrium;
   /// Share of the largest stable step [-]; that is 1.0 (composite), 0.8 (quadratic) or 0.65
   /// (linear) of the time in which the fastest wave crosses a cell.
   double courant = 0.5;

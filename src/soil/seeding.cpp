@@ -127,6 +127,11 @@ void set_initial_stress(const Grid<D>& grid, const SoilOptions& options,
       double pore_pressure = 0.0;
       if (const auto* tensor = std::get_if<SymTensor>(&body.initial_stress)) {
         stress = *tensor;
+      } else if (const auto* field = std::get_if<StressField>(&body.initial_stress)) {
+        const Point3 place = to_point3(bodies[b].position_of(p));
+        const auto& part = field->component;
+        stress = {part[0](place, 0.0), part[1](place, 0.0), part[2](place, 0.0),
+                  part[3](place, 0.0), part[4](place, 0.0), part[5](place, 0.0)};
       } else {
         const Overburden above = overburden(grid, options, bodies[b].position_of(p), step);
         stress.zz = -above.effective;

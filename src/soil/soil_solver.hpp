@@ -29,6 +29,12 @@ class SoilSolver {
   /// Seeds the points and sets their initial state. Collective.
   void initialise();
 
+  /// Moves the points, damped, under gravity, loads and accelerations of time zero until they are
+  /// at rest, and starts from there: velocities and work are zero, displacements where asked. After
+  /// initialise(); does nothing where the options do not ask for it. Throws InputError on all ranks
+  /// when the soil finds no rest. Collective.
+  void find_equilibrium();
+
   /// Sends points to their owners, sorts them, and finds where soil is. Collective.
   void redistribute();
   /// Largest stable step of `advance` [s]: courant * limit of the kernel * h / (c + |v|), c the

@@ -71,6 +71,23 @@ TEST_F(Endings, ARunThatWaitsForRestIsTheSameInTwoParts) {
   EXPECT_EQ(whole.rows, parts.rows);
 }
 
+TEST_F(Endings, AStartInEquilibriumIsNotSoughtAgainWhenResumed) {
+  const std::vector<std::string> start{"--set", "soil_solver.start_in_equilibrium.longest=60",
+                                       "soil_solver.stop_when_static.after=1",
+                                       "soil.0.initial_stress.zz=-15598*(1-z)"};
+  auto with = [&](std::vector<std::string> more) {
+    more.insert(more.end(), start.begin(), start.end());
+    return more;
+  };
+  ASSERT_EQ(run("rest", 1, "whole", with({"--until", "1"})).code, 0);
+  ASSERT_EQ(run("rest", 1, "parts", with({"--until", "0.4"})).code, 0);
+  ASSERT_EQ(run("rest", 1, "parts", with({"--resume", "--until", "1"})).code, 0);
+  EXPECT_EQ(entry_of(results("parts"), "external work"),
+            entry_of(results("whole"), "external work"));
+  const Series top = series_of(results("whole") / "gauges/top.csv");
+  for (const auto& row : top.rows) EXPECT_LT(std::abs(row[1]), 1e-5);
+}
+
 double error_of(const fs::path& results, const std::string& what) {
   const std::string text = entry_of(results, what);
   return text.empty() || text == "null" ? HUGE_VAL : std::stod(text);

@@ -177,6 +177,23 @@ TEST(InitialStress, TakesAGivenTensorAndAddsAGivenPorePressure) {
   }
 }
 
+TEST(InitialStress, TakesAStressThatVariesInSpace) {
+  const Grid<2> grid = make_grid<2>(MPI_COMM_WORLD);
+  SoilOptions options = make_layers<2>();
+  StressField field;
+  field.component[2] = Varying([](const Point3& x, double) { return -1e3 * (3.0 - x[2]); }, "zz");
+  field.component[5] = Varying([](const Point3& x, double) { return 50.0 * x[0]; }, "zx");
+  options.bodies[1].initial_stress = field;
+  auto bodies = seed<2>(grid, options);
+  set_initial_stress(grid, options, bodies);
+  for (std::size_t p = 0; p < bodies[1].size(); ++p) {
+    const SymTensor stress = get_tensor(bodies[1].stress, p);
+    EXPECT_NEAR(stress.zz, -1e3 * (3.0 - bodies[1].position[1][p]), 1e-9);
+    EXPECT_NEAR(stress.zx, 50.0 * bodies[1].position[0][p], 1e-9);
+    EXPECT_EQ(stress.xx, 0.0);
+  }
+}
+
 TEST(SeedPoints, TakesTheVelocityOfThePlaceForGrainsAndWater) {
   const Grid<2> grid = make_grid<2>(MPI_COMM_WORLD);
   SoilBody body = make_layer("layer", 0.0, 2.0, 0.4, true, 4);

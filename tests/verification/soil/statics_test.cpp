@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "base/errors.hpp"
 #include "verification/soil/soil_runs.hpp"
 
 namespace mudlark {
@@ -131,6 +132,65 @@ TEST(Statics, TellWhenAColumnRestsWithAnyInertia) {
     EXPECT_LT(rest.stress_error, 1e-2);
     EXPECT_LT(std::abs(rest.scheme), 1e-2);
   }
+}
+
+// A slope is not at rest under the stress of its columns; it is after the search, and then stays,
+// whatever its damping. Its settlement on the way is forgotten or kept.
+TEST(Equilibrium, OfASlopeIsFoundAndStays) {
+  for (const bool reset : {true, false}) {
+    const Grid<2> grid = make_grid<2>({24, 12, 1}, 0.1, "ssnn", 9.81, MPI_COMM_WORLD);
+    SoilOptions options = make_soil(2, {}, {}, false);
+    options.bodies[0].shape.form = BelowShape{{{0.0, 1.0}, {0.8, 1.0}, {1.8, 0.4}}};
+    options.bodies[0].initial_stress = GeostaticStress{};
+    options.start_in_equilibrium = EquilibriumStart{{1e-4, 1e-6, 0.0}, 0.7, 60.0, reset};
+    SoilSolver<2> soil(grid, options);
+    soil.initialise();
+    double time = 0.0;
+    SoilSolver<2> plain = [&] {
+      SoilOptions without = options;
+      without.start_in_equilibrium.reset();
+      return SoilSolver<2>(grid, without);
+    }();
+    plain.initialise();
+    plain.find_equilibrium();
+    const double dt = plain.stable_step();
+    run(plain, time, 200, dt);
+    const double unsettled = plain.totals().kinetic_energy;
+    soil.find_equilibrium();
+    EXPECT_EQ(soil.totals().kinetic_energy, 0.0);
+    EXPECT_FALSE(soil.statics().has_value());
+    const auto largest_displacement = [&] {
+      double largest = 0.0, all = 0.0;
+      const auto& points = soil.points(0);
+      for (std::size_t p = 0; p < points.size(); ++p)
+        for (int a = 0; a < 2; ++a)
+          largest = std::max(largest, std::abs(points.position[a][p] - points.start[a][p]));
+      MPI_Allreduce(&largest, &all, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+      return all;
+    };
+    const double before = largest_displacement();
+    time = 0.0;
+    run(soil, time, 200, dt);
+    std::printf(
+        "slope: displacement %.2e m, then %.2e m; kinetic energy %.2e J, not settled %.2e J\n",
+        before, largest_displacement(), soil.totals().kinetic_energy, unsettled);
+    if (reset) {
+      EXPECT_EQ(before, 0.0);
+      EXPECT_LT(largest_displacement(), 1e-5);
+    } else {
+      EXPECT_GT(before, 1e-4);
+    }
+    EXPECT_LT(soil.totals().kinetic_energy, 1e-4 * unsettled);
+  }
+}
+
+TEST(Equilibrium, OfABlockInTheAirDoesNotExist) {
+  const Grid<2> grid = make_grid<2>({8, 40, 1}, 0.1, "ssnn", 9.81, MPI_COMM_WORLD);
+  SoilOptions options = make_soil(2, {0.2, -1, 3}, {0.5, 1, 3.3}, false);
+  options.start_in_equilibrium = EquilibriumStart{{}, 0.7, 0.1, true};
+  SoilSolver<2> soil(grid, options);
+  soil.initialise();
+  EXPECT_THROW(soil.find_equilibrium(), InputError);
 }
 
 TEST(Statics, AreZeroForSoilThatStartsInEquilibrium) {

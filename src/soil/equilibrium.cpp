@@ -1,0 +1,60 @@
+/// The state of rest from which a case may start.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/errors.hpp"
+#include "soil/soil_solver.hpp"
+
+namespace mudlark {
+namespace {
+
+/// Steps between looks at how far the soil is from rest.
+constexpr int steps_between = 50;
+
+template <int N>
+void set_zero(PointQuantity<N>& quantity) {
+  for (int c = 0; c < N; ++c) std::fill(quantity[c].begin(), quantity[c].end(), 0.0);
+}
+
+}  // namespace
+
+template <int D>
+void SoilSolver<D>::find_equilibrium() {
+  if (!options_.start_in_equilibrium) return;
+  const EquilibriumStart& start = *options_.start_in_equilibrium;
+  const double damping = options_.damping;
+  const auto water_damping = options_.water_damping;
+  options_.damping = start.damping, options_.water_damping.reset();
+  Statics statics;
+  double elapsed = 0.0;
+  do {
+    if (elapsed > start.longest)
+      throw InputError(fmt::format(
+          "soil_solver.start_in_equilibrium: no rest within {:g} s (unbalanced force {:.2g}, "
+          "kinetic energy {:.2g}). Either the soil does not stand, or it needs a larger `longest`.",
+          start.longest, statics.unbalanced_force, statics.kinetic_energy));
+    const double dt = stable_step();
+    begin_step(0.0, steps_between * dt, nullptr);
+    for (int i = 0; i < steps_between; ++i) {
+      advance(dt);
+      time_ = 0.0;  // loads and accelerations stay those of the start
+    }
+    elapsed += steps_between * dt;
+    statics = *this->statics();
+  } while (!statics.at_rest(start.rest));
+  options_.damping = damping, options_.water_damping = water_damping;
+  for (auto& points : points_) {
+    set_zero(points.velocity), set_zero(points.water_velocity);
+    set_zero(points.affine), set_zero(points.water_affine);
+    if (start.reset_displacements) points.start = points.position;
+  }
+  energy_ = recent_energy_ = SoilEnergy{};
+  mean_velocity_.fill(0.0);
+  length_ = 0.0;
+}
+
+template void SoilSolver<2>::find_equilibrium();
+template void SoilSolver<3>::find_equilibrium();
+
+}  // namespace mudlark
