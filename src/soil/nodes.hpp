@@ -5,17 +5,18 @@
 namespace mudlark {
 
 /// Sums over the points around a face of one axis; vector quantities are the component along that
-/// axis. Plain doubles, so that halos and walls treat them as eight components.
+/// axis. Plain doubles, so that halos and walls treat them as eight components; the four of dry
+/// soil lie side by side.
 struct NodeSums {
-  double grain_mass = 0.0;      ///< [kg]
   double water_mass = 0.0;      ///< pore water [kg]
-  double volume = 0.0;          ///< bulk volume of soil [m^D]
   double drag = 0.0;            ///< integral of n^2 mu / kappa [kg/s]
+  double grain_mass = 0.0;      ///< [kg]
+  double volume = 0.0;          ///< bulk volume of soil [m^D]
   double grain_momentum = 0.0;  ///< [kg m/s]
-  double water_momentum = 0.0;  ///< [kg m/s]
   double mixture_force =
-      0.0;                   ///< internal and surface forces on grains and pore water together [N]
-  double water_force = 0.0;  ///< - integral of grad p, as if water filled the whole volume [N]
+      0.0;  ///< internal and surface forces on grains and pore water together [N]
+  double water_momentum = 0.0;  ///< [kg m/s]
+  double water_force = 0.0;     ///< - integral of grad p, as if water filled the whole volume [N]
 };
 inline constexpr std::size_t node_sums = 8;
 inline constexpr std::size_t node_scalars = 4;  ///< the first four do not change sign in a mirror

@@ -22,6 +22,18 @@ struct PointQuantity {
   }
 };
 
+/// Points first, first + 1 .. last - 1.
+struct PointRange {
+  std::size_t first = 0, last = 0;
+};
+
+/// A cell and the first of the points that were sorted into it.
+template <int D>
+struct CellRun {
+  Index<D> cell;
+  std::size_t first = 0;
+};
+
 template <int D>
 struct SoilParticles {
   bool carries_affine = false;        ///< set once, by the transfer in use
@@ -44,6 +56,9 @@ struct SoilParticles {
   std::vector<std::vector<double>> history;
   std::vector<std::string> history_names;  ///< without the unit
   std::vector<std::string> history_units;
+  /// Cells in order, as of the last sort: tells the transfers where points of one cell lie side by
+  /// side. A hint that makes them fast; where points lie they look up themselves.
+  std::vector<CellRun<D>> runs;
 
   /// Makes room for the state variables "name [unit]" of a law.
   void set_history(std::span<const std::string_view> names) {

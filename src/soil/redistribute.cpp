@@ -138,25 +138,42 @@ double migrate(const Grid<D>& grid, SoilParticles<D>& points) {
   return removed;
 }
 
+namespace {
+
+/// Notes where each cell's points begin; `cell` holds positions in the local arrays, ascending.
+template <int D>
+void note_runs(const Grid<D>& grid, const std::vector<std::ptrdiff_t>& cell,
+               SoilParticles<D>& points) {
+  points.runs.clear();
+  for (std::size_t p = 0; p < cell.size(); ++p)
+    if (p == 0 || cell[p] != cell[p - 1])
+      points.runs.push_back({grid.cell_at(points.position_of(p)), p});
+}
+
+}  // namespace
+
 template <int D>
 void sort_by_cell(const Grid<D>& grid, SoilParticles<D>& points) {
   std::vector<std::ptrdiff_t> cell(points.size());
   for (std::size_t p = 0; p < points.size(); ++p)
     cell[p] = grid.offset(grid.cell_at(points.position_of(p)));
-  if (std::is_sorted(cell.begin(), cell.end())) return;
-  std::vector<std::size_t> start(grid.local_size() + 1, 0);
-  for (const std::ptrdiff_t c : cell) ++start[static_cast<std::size_t>(c) + 1];
-  std::partial_sum(start.begin(), start.end(), start.begin());
-  std::vector<std::size_t> target(points.size());
-  for (std::size_t p = 0; p < points.size(); ++p)
-    target[p] = start[static_cast<std::size_t>(cell[p])]++;
-  const auto reorder = [&](auto& array) {
-    auto sorted = array;
-    for (std::size_t p = 0; p < target.size(); ++p) sorted[target[p]] = array[p];
-    array.swap(sorted);
-  };
-  reorder(points.id);
-  points.for_each_array(reorder);
+  if (!std::is_sorted(cell.begin(), cell.end())) {
+    std::vector<std::size_t> start(grid.local_size() + 1, 0);
+    for (const std::ptrdiff_t c : cell) ++start[static_cast<std::size_t>(c) + 1];
+    std::partial_sum(start.begin(), start.end(), start.begin());
+    std::vector<std::size_t> target(points.size());
+    for (std::size_t p = 0; p < points.size(); ++p)
+      target[p] = start[static_cast<std::size_t>(cell[p])]++;
+    const auto reorder = [&](auto& array) {
+      auto sorted = array;
+      for (std::size_t p = 0; p < target.size(); ++p) sorted[target[p]] = array[p];
+      array.swap(sorted);
+    };
+    reorder(cell);
+    reorder(points.id);
+    points.for_each_array(reorder);
+  }
+  note_runs(grid, cell, points);
 }
 
 template double migrate(const Grid<2>&, SoilParticles<2>&);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "soil/cell_transfer.hpp"
 #include "soil/point_stencil.hpp"
 
 namespace mudlark {
@@ -142,13 +143,14 @@ Gathered<D> gather_component(const Grid<D>& grid, const PointSplines<D, K>& spli
 /// gradient, which is their limit.
 template <int D, class K, int Component>
 void set_affine(const PointSplines<D, K>& splines, const Vec<D>& cells, const Grid<D>& grid,
-                const Gathered<D>& sum, std::size_t p, SoilParticles<D>& points) {
+                const Gathered<D>& sum, std::size_t p, bool pore_water, SoilParticles<D>& points) {
   const Vec<D> first = splines.template first_from_point<Component>(cells);
   for (int a = 0; a < D; ++a) {
     const int degree = a == Component ? K::along : K::across;
     const double scale = (degree == 3 ? 3.0 : 4.0) / grid.spacing()[a];
     points.affine[Component * D + a][p] =
         degree == 1 ? sum.gradient[a] : scale * (sum.moment[a] + first[a] * sum.velocity);
+    if (!pore_water) continue;
     points.water_affine[Component * D + a][p] =
         degree == 1 ? sum.gradient[a]
                     : scale * (sum.water_moment[a] + first[a] * sum.water_velocity);
@@ -156,13 +158,12 @@ void set_affine(const PointSplines<D, K>& splines, const Vec<D>& cells, const Gr
 }
 
 template <int D, class K, bool affine>
-void gather(const Grid<D>& grid, const NodeField<NodeMotion, D>& nodes, double flip, double dt,
-            bool pore_water, SoilParticles<D>& points, PointMotion& motion) {
+void gather(const Grid<D>& grid, const NodeField<NodeMotion, D>& nodes, const PointUpdate& update,
+            PointRange range, SoilParticles<D>& points, PointMotion& motion) {
   const Vec<D> per_spacing = inverse(grid.spacing());
-  motion.gradient.resize(points.size() * D * D);
-  motion.flux_divergence.resize(points.size());
+  const double flip = update.flip_fraction;
   double largest = 0.0;
-  for (std::size_t p = 0; p < points.size(); ++p) {
+  for (std::size_t p = range.first; p < range.last; ++p) {
     const Vec<D> cells = in_cells(grid, per_spacing, points.position_of(p));
     const PointSplines<D, K> splines(cells);
     double divergence = 0.0, speed2 = 0.0;
@@ -172,19 +173,21 @@ void gather(const Grid<D>& grid, const NodeField<NodeMotion, D>& nodes, double f
           grid, splines, per_spacing, nodes[static_cast<std::size_t>(d)].data());
       double& v = points.velocity[d][p];
       v = affine ? sum.velocity : flip * (v + sum.change) + (1.0 - flip) * sum.velocity;
-      if (pore_water) {
+      if (update.pore_water) {
         double& vw = points.water_velocity[d][p];
         vw = affine ? sum.water_velocity
                     : flip * (vw + sum.water_change) + (1.0 - flip) * sum.water_velocity;
       }
-      if constexpr (affine) set_affine<D, K, Component>(splines, cells, grid, sum, p, points);
-      points.position[d][p] += dt * sum.velocity;
+      if constexpr (affine)
+        set_affine<D, K, Component>(splines, cells, grid, sum, p, update.pore_water, points);
+      points.position[d][p] += update.dt * sum.velocity;
       for (int j = 0; j < D; ++j)
-        motion.gradient[p * D * D + static_cast<std::size_t>(d * D + j)] = dt * sum.gradient[j];
+        motion.gradient[(p - range.first) * D * D + static_cast<std::size_t>(d * D + j)] =
+            update.dt * sum.gradient[j];
       divergence += sum.flux_slope;
       speed2 += std::max(v * v, sum.velocity * sum.velocity);
     });
-    motion.flux_divergence[p] = divergence;
+    if (update.pore_water) motion.flux_divergence[p - range.first] = divergence;
     if (!(speed2 <= largest))
       largest = speed2 < 1e300 ? speed2 : std::numeric_limits<double>::infinity();
   }
@@ -216,9 +219,9 @@ double permeability(const BodyConstants& body, double porosity) {
 }
 
 template <int D>
-void points_to_grid(const Grid<D>& grid, const SoilParticles<D>& points, const BodyConstants& body,
-                    Kernel kernel, Transfer transfer, const SurfacePressure<D>& surface,
-                    NodeField<NodeSums, D>& nodes) {
+void points_to_grid_one_by_one(const Grid<D>& grid, const SoilParticles<D>& points,
+                               const BodyConstants& body, Kernel kernel, Transfer transfer,
+                               const SurfacePressure<D>& surface, NodeField<NodeSums, D>& nodes) {
   with_kernel(kernel, [&]<class K>(K) {
     if (transfer == Transfer::apic)
       scatter<D, K, true>(grid, points, body, surface, nodes);
@@ -228,14 +231,54 @@ void points_to_grid(const Grid<D>& grid, const SoilParticles<D>& points, const B
 }
 
 template <int D>
-void grid_to_points(const Grid<D>& grid, const NodeField<NodeMotion, D>& nodes, Kernel kernel,
-                    Transfer transfer, double flip_fraction, double dt, bool pore_water,
-                    SoilParticles<D>& points, PointMotion& motion) {
+void points_to_grid(const Grid<D>& grid, const SoilParticles<D>& points, const BodyConstants& body,
+                    Kernel kernel, Transfer transfer, const SurfacePressure<D>& surface,
+                    NodeField<NodeSums, D>& nodes) {
+  with_kernel(kernel, [&]<class K>(K) {
+    if constexpr (K::across != 2)
+      points_to_grid_one_by_one(grid, points, body, kernel, transfer, surface, nodes);
+    else if (transfer == Transfer::apic)
+      scatter_by_cell<D, K, true>(grid, points, body, surface, nodes);
+    else
+      scatter_by_cell<D, K, false>(grid, points, body, surface, nodes);
+  });
+}
+
+namespace {
+
+template <int D>
+void make_room(PointRange range, bool pore_water, PointMotion& motion) {
+  motion.gradient.resize((range.last - range.first) * D * D);
+  if (pore_water) motion.flux_divergence.resize(range.last - range.first);
+}
+
+}  // namespace
+
+template <int D>
+void grid_to_points_one_by_one(const Grid<D>& grid, const NodeField<NodeMotion, D>& nodes,
+                               Kernel kernel, Transfer transfer, const PointUpdate& update,
+                               PointRange range, SoilParticles<D>& points, PointMotion& motion) {
+  make_room<D>(range, update.pore_water, motion);
   with_kernel(kernel, [&]<class K>(K) {
     if (transfer == Transfer::apic)
-      gather<D, K, true>(grid, nodes, flip_fraction, dt, pore_water, points, motion);
+      gather<D, K, true>(grid, nodes, update, range, points, motion);
     else
-      gather<D, K, false>(grid, nodes, flip_fraction, dt, pore_water, points, motion);
+      gather<D, K, false>(grid, nodes, update, range, points, motion);
+  });
+}
+
+template <int D>
+void grid_to_points(const Grid<D>& grid, const NodeField<NodeMotion, D>& nodes, Kernel kernel,
+                    Transfer transfer, const PointUpdate& update, PointRange range,
+                    SoilParticles<D>& points, PointMotion& motion) {
+  make_room<D>(range, update.pore_water, motion);
+  with_kernel(kernel, [&]<class K>(K) {
+    if constexpr (K::across != 2)
+      grid_to_points_one_by_one(grid, nodes, kernel, transfer, update, range, points, motion);
+    else if (transfer == Transfer::apic)
+      gather_by_cell<D, K, true>(grid, nodes, update, range, points, motion);
+    else
+      gather_by_cell<D, K, false>(grid, nodes, update, range, points, motion);
   });
 }
 
@@ -265,10 +308,22 @@ template void points_to_grid(const Grid<2>&, const SoilParticles<2>&, const Body
                              Transfer, const SurfacePressure<2>&, NodeField<NodeSums, 2>&);
 template void points_to_grid(const Grid<3>&, const SoilParticles<3>&, const BodyConstants&, Kernel,
                              Transfer, const SurfacePressure<3>&, NodeField<NodeSums, 3>&);
+template void points_to_grid_one_by_one(const Grid<2>&, const SoilParticles<2>&,
+                                        const BodyConstants&, Kernel, Transfer,
+                                        const SurfacePressure<2>&, NodeField<NodeSums, 2>&);
 template void grid_to_points(const Grid<2>&, const NodeField<NodeMotion, 2>&, Kernel, Transfer,
-                             double, double, bool, SoilParticles<2>&, PointMotion&);
+                             const PointUpdate&, PointRange, SoilParticles<2>&, PointMotion&);
+template void grid_to_points_one_by_one(const Grid<2>&, const NodeField<NodeMotion, 2>&, Kernel,
+                                        Transfer, const PointUpdate&, PointRange, SoilParticles<2>&,
+                                        PointMotion&);
+template void points_to_grid_one_by_one(const Grid<3>&, const SoilParticles<3>&,
+                                        const BodyConstants&, Kernel, Transfer,
+                                        const SurfacePressure<3>&, NodeField<NodeSums, 3>&);
 template void grid_to_points(const Grid<3>&, const NodeField<NodeMotion, 3>&, Kernel, Transfer,
-                             double, double, bool, SoilParticles<3>&, PointMotion&);
+                             const PointUpdate&, PointRange, SoilParticles<3>&, PointMotion&);
+template void grid_to_points_one_by_one(const Grid<3>&, const NodeField<NodeMotion, 3>&, Kernel,
+                                        Transfer, const PointUpdate&, PointRange, SoilParticles<3>&,
+                                        PointMotion&);
 template void add_solid_fraction(const Grid<2>&, const SoilParticles<2>&, double, Kernel, double,
                                  CellField<2>&);
 template std::vector<double> sample_at_points(const Grid<2>&, const SoilParticles<2>&, Kernel,

@@ -32,7 +32,7 @@ double permeability(const BodyConstants& body, double porosity);
 /// Adds mass, momentum, volume, drag and forces of the points to the faces around them.
 /// Internal forces: -sum V sigma grad W. Surface pressure as a virtual stress (NUMERICS A5):
 /// f = -sum V (grad W p_e + W grad p_e), which needs no surface and leaves sigma = -p_e I at rest
-/// exactly.
+/// exactly. `quadratic` and `composite` kernels take points a cell at a time (cell_scatter.cpp).
 template <int D>
 void points_to_grid(const Grid<D>& grid, const SoilParticles<D>& points, const BodyConstants& body,
                     Kernel kernel, Transfer transfer, const SurfacePressure<D>& surface,
@@ -41,17 +41,43 @@ void points_to_grid(const Grid<D>& grid, const SoilParticles<D>& points, const B
 /// What the stress update needs of the grid's motion, per point.
 struct PointMotion {
   std::vector<double> gradient;         ///< dt * dv_i/dx_j [-], D*D per point, row i
-  std::vector<double> flux_divergence;  ///< divergence of v_s + n (v_f - v_s) [1/s]
+  std::vector<double> flux_divergence;  ///< div(v_s + n (v_f - v_s)) [1/s]; only with pore water
   double largest_speed = 0.0;           ///< of the grains [m/s]; infinite when not a number
+  std::size_t strays = 0;               ///< points met outside the cell that they were sorted into
+};
+
+/// How points follow the grid.
+struct PointUpdate {
+  double flip_fraction, dt;  ///< [-], [s]
+  bool pore_water;
 };
 
 /// Moves the points with the grid and updates their velocities:
 /// FLIP/PIC  v_p <- f (v_p + dv) + (1 - f) v  (Brackbill & Ruppel 1986), or APIC (Jiang et al.
-/// 2015).
+/// 2015). Only the points of `range`; `motion` then starts with the first of them.
+template <int D>
+void grid_to_points(const Grid<D>& grid, const NodeField<NodeMotion, D>& nodes, Kernel kernel,
+                    Transfer transfer, const PointUpdate& update, PointRange range,
+                    SoilParticles<D>& points, PointMotion& motion);
+/// The same for all points.
 template <int D>
 void grid_to_points(const Grid<D>& grid, const NodeField<NodeMotion, D>& nodes, Kernel kernel,
                     Transfer transfer, double flip_fraction, double dt, bool pore_water,
-                    SoilParticles<D>& points, PointMotion& motion);
+                    SoilParticles<D>& points, PointMotion& motion) {
+  grid_to_points(grid, nodes, kernel, transfer, PointUpdate{flip_fraction, dt, pore_water},
+                 PointRange{0, points.size()}, points, motion);
+}
+
+/// Both transfers one point after the other, for any kernel: the reference that the faster paths
+/// are tested against, and the path of `linear`.
+template <int D>
+void points_to_grid_one_by_one(const Grid<D>& grid, const SoilParticles<D>& points,
+                               const BodyConstants& body, Kernel kernel, Transfer transfer,
+                               const SurfacePressure<D>& surface, NodeField<NodeSums, D>& nodes);
+template <int D>
+void grid_to_points_one_by_one(const Grid<D>& grid, const NodeField<NodeMotion, D>& nodes,
+                               Kernel kernel, Transfer transfer, const PointUpdate& update,
+                               PointRange range, SoilParticles<D>& points, PointMotion& motion);
 
 /// Adds `weight` times V_grains / V_cell of the points to the cells around them, with the
 /// across-axis spline: weight 1 gives the solid fraction [-].

@@ -286,7 +286,7 @@ void expect_divergence_is_that_of_the_grid() {
   const std::vector<double> expected = sample_at_points(grid, points, Kernel::composite, flux);
   const std::vector<double> strain = sample_at_points(grid, points, Kernel::composite, grains);
   PointMotion motion;
-  grid_to_points(grid, nodes, Kernel::composite, Transfer::flip, 1.0, 1.0, false, points, motion);
+  grid_to_points(grid, nodes, Kernel::composite, Transfer::flip, 1.0, 1.0, true, points, motion);
   for (std::size_t p = 0; p < points.size(); ++p) {
     EXPECT_NEAR(motion.flux_divergence[p], expected[p], 1e-12);
     double trace = 0.0;

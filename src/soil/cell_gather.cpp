@@ -1,0 +1,223 @@
+/// Grid to points, a cell at a time: lanes are points, and the motion of a node is the same for
+/// all of them. Sums run along x, then y, then z.
+#include <limits>
+
+#include "soil/cell_splines.hpp"
+#include "soil/cell_transfer.hpp"
+
+namespace mudlark {
+namespace {
+
+/// Spline, its slope, and spline times distance of the node from the point in cells (for APIC).
+template <class Value, std::size_t N>
+struct GatherSpline {
+  AxisSpline<Value, static_cast<int>(N)> spline;
+  std::array<Value, N> moment;
+
+  GatherSpline(const AxisSpline<Value, static_cast<int>(N)>& on, const Value& place, double first)
+      : spline(on) {
+    for (std::size_t k = 0; k < N; ++k)
+      moment[k] = spline.weight[k] * (static_cast<double>(k) + first - place);
+  }
+};
+
+/// Sums over the nodes of one component around the points; what a mode does not need stays out.
+template <int D, bool affine, bool wet>
+struct Sums {
+  using Value = Lanes<point_lanes<D>>;
+  Value velocity{}, change{}, water_velocity{}, water_change{}, flux_slope{};
+  std::array<Value, D> gradient{}, moment{}, water_moment{};
+
+  /// Adds what a line or plane of nodes across `axis` gave; the axes below are summed already.
+  template <int Component, int Axis, std::size_t N>
+  void add(const Sums& part, const GatherSpline<Value, N>& on, std::size_t k) {
+    const Value &w = on.spline.weight[k], &slope = on.spline.slope[k];
+    velocity += w * part.velocity;
+    for (std::size_t a = 0; a < Axis; ++a) gradient[a] += w * part.gradient[a];
+    gradient[Axis] += slope * part.velocity;
+    if constexpr (affine) {
+      for (std::size_t a = 0; a < Axis; ++a) moment[a] += w * part.moment[a];
+      moment[Axis] += on.moment[k] * part.velocity;
+    } else {
+      change += w * part.change;
+    }
+    if constexpr (!wet) return;
+    flux_slope += (Component == Axis ? slope : w) * part.flux_slope;
+    water_velocity += w * part.water_velocity;
+    if constexpr (affine) {
+      for (std::size_t a = 0; a < Axis; ++a) water_moment[a] += w * part.water_moment[a];
+      water_moment[Axis] += on.moment[k] * part.water_velocity;
+    } else {
+      water_change += w * part.water_change;
+    }
+  }
+  template <int Component, std::size_t N>
+  void add_node(const NodeMotion& node, const GatherSpline<Value, N>& on, std::size_t i) {
+    const Value &w = on.spline.weight[i], &slope = on.spline.slope[i];
+    velocity += w * node.grain_velocity;
+    gradient[0] += slope * node.grain_velocity;
+    if constexpr (affine)
+      moment[0] += on.moment[i] * node.grain_velocity;
+    else
+      change += w * node.grain_change;
+    if constexpr (!wet) return;
+    flux_slope += (Component == 0 ? slope : w) * node.total_flux;
+    water_velocity += w * node.water_velocity;
+    if constexpr (affine)
+      water_moment[0] += on.moment[i] * node.water_velocity;
+    else
+      water_change += w * node.water_change;
+  }
+};
+
+template <int D, class K, bool affine, bool wet>
+class CellGather {
+ public:
+  using Value = Lanes<point_lanes<D>>;
+  CellGather(const Grid<D>& grid, const NodeField<NodeMotion, D>& nodes, const PointUpdate& update,
+             std::size_t first_point, SoilParticles<D>& points, PointMotion& motion)
+      : grid_(grid),
+        nodes_(nodes),
+        update_(update),
+        first_point_(first_point),
+        points_(points),
+        motion_(motion),
+        stride_{1, D == 3 ? grid.stride(1) : 0, grid.stride(D - 1)} {}
+
+  void take(const CellBatches<D>& batches, const CellBatch<D>& batch) {
+    std::array<Value, D> place;
+    for (int a = 0; a < D; ++a) place[static_cast<std::size_t>(a)] = batches.place(batch, a);
+    Index<D> corner = batch.cell;
+    for (int a = 0; a < D; ++a) --corner[a];
+    const std::ptrdiff_t first = grid_.offset(corner);
+    Value divergence{}, speed2{};
+    take_component<0>(batch, batches.per_spacing(), place, first, divergence, speed2);
+    take_component<1>(batch, batches.per_spacing(), place, first, divergence, speed2);
+    if constexpr (D == 3)
+      take_component<2>(batch, batches.per_spacing(), place, first, divergence, speed2);
+    for (int i = 0; i < batch.live; ++i) {
+      const auto u = static_cast<std::size_t>(i);
+      if constexpr (wet) motion_.flux_divergence[batch.point[u] - first_point_] = divergence[u];
+      if (!(speed2[u] <= largest_))
+        largest_ = speed2[u] < 1e300 ? speed2[u] : std::numeric_limits<double>::infinity();
+    }
+  }
+  double largest_speed() const { return std::sqrt(largest_); }
+
+ private:
+  template <int Component, int Axis>
+  auto spline(const Vec<D>& per_spacing, const std::array<Value, D>& place) const {
+    const Value& r = place[static_cast<std::size_t>(Axis)];
+    if constexpr (Component == Axis)
+      return GatherSpline<Value, 4>(face_spline<K::along>(r, per_spacing[Axis]), r, first_face);
+    else
+      return GatherSpline<Value, 3>(centre_spline(r, per_spacing[Axis]), r, first_centre);
+  }
+
+  template <int Component>
+  Sums<D, affine, wet> sum_nodes(const Vec<D>& per_spacing, const std::array<Value, D>& place,
+                                 const NodeMotion* corner) const {
+    using Part = Sums<D, affine, wet>;
+    constexpr int d = Component;
+    constexpr std::size_t nx = d == 0 ? 4 : 3, ny = d == 1 ? 4 : 3, nz = d == D - 1 ? 4 : 3;
+    const auto x = spline<d, 0>(per_spacing, place);
+    const auto z = spline<d, D - 1>(per_spacing, place);
+    Part all;
+    for (std::size_t k = 0; k < nz; ++k) {
+      const NodeMotion* plane = corner + static_cast<std::ptrdiff_t>(k) * stride_[2];
+      Part sum;
+      if constexpr (D == 2) {
+        for (std::size_t i = 0; i < nx; ++i) sum.template add_node<d>(plane[i], x, i);
+      } else {
+        const auto y = spline<d, 1>(per_spacing, place);
+        for (std::size_t j = 0; j < ny; ++j) {
+          const NodeMotion* row = plane + static_cast<std::ptrdiff_t>(j) * stride_[1];
+          Part line;
+          for (std::size_t i = 0; i < nx; ++i) line.template add_node<d>(row[i], x, i);
+          sum.template add<d, 1>(line, y, j);
+        }
+      }
+      all.template add<d, D - 1>(sum, z, k);
+    }
+    return all;
+  }
+
+  template <int Component>
+  void take_component(const CellBatch<D>& batch, const Vec<D>& per_spacing,
+                      const std::array<Value, D>& place, std::ptrdiff_t first, Value& divergence,
+                      Value& speed2) {
+    constexpr int d = Component;
+    const auto sum =
+        sum_nodes<d>(per_spacing, place, nodes_[static_cast<std::size_t>(d)].data() + first);
+    const double flip = update_.flip_fraction;
+    Value v = sum.velocity;
+    if constexpr (!affine)
+      v = flip * (batch.get(points_.velocity[d]) + sum.change) + (1.0 - flip) * sum.velocity;
+    batch.set(v, points_.velocity[d]);
+    if constexpr (wet) {
+      Value water = sum.water_velocity;
+      if constexpr (!affine)
+        water = flip * (batch.get(points_.water_velocity[d]) + sum.water_change) +
+                (1.0 - flip) * sum.water_velocity;
+      batch.set(water, points_.water_velocity[d]);
+      divergence += sum.flux_slope;
+    }
+    if constexpr (affine)
+      for (int a = 0; a < D; ++a) {  // see set_affine in transfer.cpp
+        const auto u = static_cast<std::size_t>(a);
+        const double scale = (a == d && K::along == 3 ? 3.0 : 4.0) * per_spacing[a];
+        batch.set(scale * sum.moment[u], points_.affine[d * D + a]);
+        if constexpr (wet) batch.set(scale * sum.water_moment[u], points_.water_affine[d * D + a]);
+      }
+    batch.set(batch.get(points_.position[d]) + update_.dt * sum.velocity, points_.position[d]);
+    const Value point2 = v * v, grid2 = sum.velocity * sum.velocity;
+    speed2 += point2 > grid2 ? point2 : grid2;
+    for (std::size_t j = 0; j < D; ++j) {
+      const Value gradient = update_.dt * sum.gradient[j];
+      for (int i = 0; i < batch.live; ++i) {
+        const auto u = static_cast<std::size_t>(i);
+        motion_.gradient[(batch.point[u] - first_point_) * D * D + d * D + j] = gradient[u];
+      }
+    }
+  }
+
+  const Grid<D>& grid_;
+  const NodeField<NodeMotion, D>& nodes_;
+  const PointUpdate& update_;
+  std::size_t first_point_;
+  SoilParticles<D>& points_;
+  PointMotion& motion_;
+  std::array<std::ptrdiff_t, 3> stride_;
+  double largest_ = 0.0;
+};
+
+}  // namespace
+
+template <int D, class K, bool affine>
+void gather_by_cell(const Grid<D>& grid, const NodeField<NodeMotion, D>& nodes,
+                    const PointUpdate& update, PointRange range, SoilParticles<D>& points,
+                    PointMotion& motion) {
+  CellBatches<D> batches(grid, points);
+  const auto run = [&](auto gather) {
+    motion.strays +=
+        batches.for_each(range, [&](const CellBatch<D>& batch) { gather.take(batches, batch); });
+    motion.largest_speed = std::max(motion.largest_speed, gather.largest_speed());
+  };
+  if (update.pore_water)
+    run(CellGather<D, K, affine, true>(grid, nodes, update, range.first, points, motion));
+  else
+    run(CellGather<D, K, affine, false>(grid, nodes, update, range.first, points, motion));
+}
+
+// clang-format off
+template void gather_by_cell<2, QuadraticKernel, false>(const Grid<2>&, const NodeField<NodeMotion, 2>&, const PointUpdate&, PointRange, SoilParticles<2>&, PointMotion&);
+template void gather_by_cell<2, QuadraticKernel, true>(const Grid<2>&, const NodeField<NodeMotion, 2>&, const PointUpdate&, PointRange, SoilParticles<2>&, PointMotion&);
+template void gather_by_cell<2, CompositeKernel, false>(const Grid<2>&, const NodeField<NodeMotion, 2>&, const PointUpdate&, PointRange, SoilParticles<2>&, PointMotion&);
+template void gather_by_cell<2, CompositeKernel, true>(const Grid<2>&, const NodeField<NodeMotion, 2>&, const PointUpdate&, PointRange, SoilParticles<2>&, PointMotion&);
+template void gather_by_cell<3, QuadraticKernel, false>(const Grid<3>&, const NodeField<NodeMotion, 3>&, const PointUpdate&, PointRange, SoilParticles<3>&, PointMotion&);
+template void gather_by_cell<3, QuadraticKernel, true>(const Grid<3>&, const NodeField<NodeMotion, 3>&, const PointUpdate&, PointRange, SoilParticles<3>&, PointMotion&);
+template void gather_by_cell<3, CompositeKernel, false>(const Grid<3>&, const NodeField<NodeMotion, 3>&, const PointUpdate&, PointRange, SoilParticles<3>&, PointMotion&);
+template void gather_by_cell<3, CompositeKernel, true>(const Grid<3>&, const NodeField<NodeMotion, 3>&, const PointUpdate&, PointRange, SoilParticles<3>&, PointMotion&);
+// clang-format on
+
+}  // namespace mudlark
