@@ -6,8 +6,9 @@ namespace mudlark {
 
 /// How a side of the domain behaves.
 /// slip: no flow through, free along. no_slip: no motion at all. open: water and soil may leave,
-/// water stands under atmospheric pressure there. periodic: joined to the opposite side.
-enum class Wall { slip, no_slip, open, periodic };
+/// water stands under atmospheric pressure there. periodic: joined to the opposite side. friction:
+/// slip for water, Coulomb friction for soil.
+enum class Wall { slip, no_slip, open, periodic, friction };
 
 struct DomainOptions {
   int dimension = 2;  ///< 2 (plane strain, axes x and z) or 3
@@ -15,7 +16,8 @@ struct DomainOptions {
       upper{};                        ///< [m], first `dimension` entries used; last one vertical
   std::array<int, 3> cells{1, 1, 1};  ///< number of cells per axis
   std::array<double, 3> gravity{};    ///< acceleration [m/s2] per axis, usually (0, .., -9.81)
-  std::array<std::array<Wall, 2>, 3> walls{};  ///< [axis][0: lower side, 1: upper side]
+  std::array<std::array<Wall, 2>, 3> walls{};            ///< [axis][0: lower side, 1: upper side]
+  std::array<std::array<double, 2>, 3> wall_friction{};  ///< coefficients of friction walls [-]
 };
 
 }  // namespace mudlark

@@ -15,6 +15,7 @@ Grid<D>::Grid(const DomainOptions& options, MPI_Comm comm) {
     spacing_[a] = (options.upper[u] - options.lower[u]) / options.cells[u];
     gravity_[a] = options.gravity[u];
     walls_[u] = options.walls[u];
+    wall_friction_[u] = options.wall_friction[u];
     volume_ *= spacing_[a];
     wraps[u] = walls_[u][0] == Wall::periodic;
   }

@@ -33,6 +33,10 @@ class Grid {
   Wall wall(int axis, int side) const {
     return walls_[static_cast<std::size_t>(axis)][static_cast<std::size_t>(side)];
   }
+  /// Coefficient of a friction wall [-].
+  double wall_friction(int axis, int side) const {
+    return wall_friction_[static_cast<std::size_t>(axis)][static_cast<std::size_t>(side)];
+  }
   bool periodic(int axis) const { return wall(axis, 0) == Wall::periodic; }
   MPI_Comm comm() const { return partition_.comm; }
   int rank() const { return partition_.rank; }
@@ -69,6 +73,7 @@ class Grid {
   Vec<D> lower_, spacing_, gravity_;
   double volume_ = 1.0;
   std::array<std::array<Wall, 2>, D> walls_{};
+  std::array<std::array<double, 2>, D> wall_friction_{};
   Partition<D> partition_;
   IndexBox<D> local_;
   std::array<std::ptrdiff_t, D> strides_{};

@@ -148,6 +148,21 @@ void read_gravity(Section& section, DomainOptions& domain) {
   for (std::size_t a = 0; a < axes; ++a) domain.gravity[a] = gravity[a];
 }
 
+/// A word, or { type = "friction", friction_coefficient = .. }.
+void read_wall(Section& walls, const std::string& key, const std::vector<Choice<Wall>>& kinds,
+               Wall& wall, double& friction) {
+  const Value* value = walls.has(key) ? walls.raw(key) : nullptr;
+  if (!value || !std::holds_alternative<Table>(value->data)) {
+    wall = walls.choice<Wall>(key, kinds, Wall::slip, {"absorbing", "wave", "piston"});
+    return;
+  }
+  Section section = walls.table(key, Record::Form::inline_table);
+  wall = section.choice<Wall>("type", {{"friction", Wall::friction}});
+  friction = section.number("friction_coefficient", quantity::number,
+                            not_negative("friction cannot push", "0.4 is tan 22 degrees."));
+  section.finish();
+}
+
 void read_walls(Section& section, DomainOptions& domain, bool cells_known) {
   Section walls = section.table("walls", Record::Form::block);
   const std::vector<Choice<Wall>> kinds{{"slip", Wall::slip},
@@ -159,8 +174,7 @@ void read_walls(Section& section, DomainOptions& domain, bool cells_known) {
     const std::array<std::string, 2> keys{fmt::format("lower_{}", axis),
                                           fmt::format("upper_{}", axis)};
     for (std::size_t side = 0; side < 2; ++side)
-      domain.walls[a][side] =
-          walls.choice<Wall>(keys[side], kinds, Wall::slip, {"absorbing", "wave", "piston"});
+      read_wall(walls, keys[side], kinds, domain.walls[a][side], domain.wall_friction[a][side]);
     const bool lower = domain.walls[a][0] == Wall::periodic,
                upper = domain.walls[a][1] == Wall::periodic;
     if (lower != upper) {

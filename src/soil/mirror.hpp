@@ -4,7 +4,9 @@
 
 namespace mudlark {
 
-inline bool closed(Wall wall) { return wall == Wall::slip || wall == Wall::no_slip; }
+inline bool closed(Wall wall) {
+  return wall == Wall::slip || wall == Wall::no_slip || wall == Wall::friction;
+}
 
 /// Calls f(behind, before) for each pair of mirrored places at a wall. On the wall's own axis faces
 /// mirror about the wall's face, cells and faces of other axes about the wall between two of them.

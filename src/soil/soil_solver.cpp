@@ -51,6 +51,7 @@ SoilSolver<D>::SoilSolver(const Grid<D>& grid, const SoilOptions& options)
       options_(options),
       halo_(grid),
       surface_(grid, options.loads),
+      wall_contact_(grid),
       sums_(make_node_field<NodeSums, D>(grid, "soil sums")),
       motion_(make_node_field<NodeMotion, D>(grid, "soil motion")),
       occupied_(grid, "cells with soil", "1"),
@@ -162,6 +163,7 @@ void SoilSolver<D>::gather_nodes() {
     points_to_grid(*grid_, points_[b], constants_[b], options_.kernel, options_.transfer,
                    facets ? SurfacePressure<D>{} : surface, sums_);
   if (exchanges_halos()) halo_.add_to_owners(as_doubles<NodeSums, D>(sums_), node_sums);
+  if (!wall_contact_.empty()) wall_contact_.measure(sums_);
   fold_into_domain(*grid_, active_, sums_);
   add_body_force(*grid_, options_, time_, active_, sums_);
   if (facets) {
@@ -249,6 +251,7 @@ void SoilSolver<D>::solve_nodes(double dt) {
       solve_face(sums[at], dt, volume, motion[at]);
     });
   }
+  if (!wall_contact_.empty()) wall_contact_.apply(dt, sums_, motion_);
   mirror_motion(*grid_, active_, motion_);
   for (int d = 0; d < D; ++d) {  // after the walls have come to rest
     const NodeSums* sums = sums_[static_cast<std::size_t>(d)].data();

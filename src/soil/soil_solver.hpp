@@ -15,6 +15,7 @@
 #include "soil/statics.hpp"
 #include "soil/surface_load.hpp"
 #include "soil/transfer.hpp"
+#include "soil/wall_contact.hpp"
 
 namespace mudlark {
 
@@ -122,6 +123,7 @@ class SoilSolver {
   std::vector<BodyConstants> constants_;
   std::vector<std::unique_ptr<SoilModel>> laws_;
   SurfaceLoads<D> surface_;
+  WallContact<D> wall_contact_;
   NodeField<NodeSums, D> sums_;
   NodeField<NodeMotion, D> motion_;
   CellField<D> occupied_;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "soil/mirror.hpp"
 #include "soil/soil_solver.hpp"
 
 namespace mudlark {
@@ -43,9 +44,7 @@ double SoilSolver<D>::squared_force_on_free_faces() {
   gather_nodes();
   double sum = 0.0;
   for (int d = 0; d < D; ++d) {
-    const auto held = [&](int side) {
-      return grid_->wall(d, side) == Wall::slip || grid_->wall(d, side) == Wall::no_slip;
-    };
+    const auto held = [&](int side) { return closed(grid_->wall(d, side)); };
     const NodeSums* sums = sums_[static_cast<std::size_t>(d)].data();
     for_each(grid_->owned_faces(d).intersected(active_), [&](const Index<D>& face) {
       if ((face[d] == 0 && held(0)) || (face[d] == grid_->cells()[d] && held(1))) return;
