@@ -1,7 +1,6 @@
 #pragma once
 /// Strain measures: from the velocity gradient of a step to what a soil law sees, and back to
 /// Cauchy stress.
-#include <Eigen/Core>
 #include <span>
 #include <vector>
 
@@ -14,6 +13,8 @@ namespace mudlark {
 /// Half the natural logarithm of a symmetric positive tensor b [-]: the logarithmic strain of b = F
 /// F^T.
 SymTensor half_log(const SymTensor& b);
+/// The same of b without shear out of the plane x-z, in closed form.
+SymTensor half_log_plane(const SymTensor& b);
 /// b = exp(2 strain), the inverse of half_log.
 SymTensor exp_twice(const SymTensor& strain);
 
@@ -28,8 +29,8 @@ struct StressResult {
 };
 
 /// Gives points their stress after a step, and updates their state variables.
-/// `gradient` holds D*D values per point: dt * dv_i/dx_j, row i. Expects volumes to be updated
-/// already.
+/// Only the points of `range`; `gradient` starts with the first of them and holds D*D values per
+/// point: dt * dv_i/dx_j, row i. Expects volumes to be updated already.
 ///   small:       sigma = law(sym(F) - I + eps_0)                        (reference configuration)
 ///   logarithmic: sigma = law(1/2 ln b_e)
 ///   hencky:      sigma = law(1/2 ln b_e) / J,  b_e <- f b_e f^T          (Simo 1992)
@@ -38,8 +39,15 @@ struct StressResult {
 ///   jaumann:     the same rotation, sigma = law(rotated sigma, d eps)
 /// Of a law that yields, `hencky` takes the new elastic strain from the new stress.
 template <int D>
+StressResult update_stress(SoilParticles<D>& points, PointRange range,
+                           std::span<const double> gradient, const SoilModel& law,
+                           StrainMeasure measure, const StressStep& step);
+/// The same for all points.
+template <int D>
 StressResult update_stress(SoilParticles<D>& points, std::span<const double> gradient,
-                           const SoilModel& law, StrainMeasure measure, const StressStep& step);
+                           const SoilModel& law, StrainMeasure measure, const StressStep& step) {
+  return update_stress(points, PointRange{0, points.size()}, gradient, law, measure, step);
+}
 
 /// Prepares the elastic state and the state variables of new points, so that their initial stress
 /// is in equilibrium with them. `porosity` [-] is the initial one.

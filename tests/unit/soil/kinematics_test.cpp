@@ -267,5 +267,31 @@ TEST(UpdateStress, GoesThroughAllPointsInBatches) {
   }
 }
 
+/// Points whose strains are of like size share a rule for the logarithm; each size has its own.
+TEST(UpdateStress, TakesTheSameLogarithmAsOnePointAtATime) {
+  const LinearElastic law({1.0, 0.3});
+  std::mt19937 generator(11);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  for (const double size : {1e-12, 1e-4, 2.5e-4, 4e-3, 8e-3, 0.05, 0.08, 0.2, 0.6}) {
+    SoilParticles<3> points;
+    points.resize(21);
+    std::vector<SymTensor> strain;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      SymTensor t{unit(generator), unit(generator), unit(generator),
+                  unit(generator), unit(generator), unit(generator)};
+      strain.push_back(size / std::sqrt(t.squared_norm()) * t);
+      set_tensor(points.elastic, p, exp_twice(strain.back()));
+    }
+    const std::vector<double> gradient(points.size() * 9, 0.0);
+    update_stress(points, gradient, law, StrainMeasure::logarithmic, {1.0, 0.0, 1.0});
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      const SymTensor found = law.elastic_strain(get_tensor(points.stress, p));
+      EXPECT_LT(largest_difference(to_matrix(found), to_matrix(strain[p])),
+                2e-15 * (1.0 + 10.0 * size))
+          << size;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace mudlark
