@@ -57,7 +57,7 @@ inline void add_face_work(const NodeSums& sums, const NodeMotion& motion, double
 /// n (v_f - v_s))) dt. With the stresses before the step it is what the faces' forces did; the mean
 /// of before and after is the work of second order in the step.
 template <int D>
-double internal_work(const SoilParticles<D>& points, const PointMotion& motion, double dt,
-                     bool pore_water);
+double internal_work(const SoilParticles<D>& points, PointRange range, const PointMotion& motion,
+                     double dt, bool pore_water);
 
 }  // namespace mudlark

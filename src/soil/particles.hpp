@@ -1,5 +1,6 @@
 #pragma once
 /// The material points of one body of soil: a struct of arrays, one array per component.
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -114,6 +115,16 @@ struct SoilParticles {
           for (int c = 0; c < components; ++c)
             a.points(body + "/" + name + " " + std::to_string(c), arrays[c], 1);
         });
+  }
+
+  /// Points from `first` on, up to about `most` of them, whole cells as last sorted.
+  PointRange block(std::size_t first, std::size_t most) const {
+    if (size() - first <= most) return {first, size()};
+    const auto next =
+        std::upper_bound(runs.begin(), runs.end(), first + most,
+                         [](std::size_t p, const CellRun<D>& run) { return p < run.first; });
+    if (next == runs.begin() || (next - 1)->first <= first) return {first, first + most};
+    return {first, (next - 1)->first};
   }
 
   Vec<D> position_of(std::size_t p) const {

@@ -10,6 +10,7 @@
 #include "materials/registry.hpp"
 #include "soil/body_force.hpp"
 #include "soil/kinematics.hpp"
+#include "soil/point_volume.hpp"
 #include "soil/redistribute.hpp"
 #include "soil/seeding.hpp"
 #include "soil/stable_step.hpp"
@@ -20,6 +21,10 @@ namespace {
 
 /// Points may go this far between visits to their owners, in cells: the ghost layers hold no more.
 constexpr double longest_travel = 0.9;
+/// Points whose state is updated together; their arrays fit into the second-level cache.
+constexpr std::size_t points_per_block = 1024;
+/// Points are sorted again when this share of them has left the cell that they were sorted into.
+constexpr double most_strays = 0.2;
 /// Faces lighter than this share of a full one carry no motion of their own.
 constexpr double lightest_face = 1e-12;
 /// Above this share of a cell's volume a face counts as inside the soil, below it as the soil's
@@ -146,10 +151,22 @@ void SoilSolver<D>::advance(double dt) {
     redistribute();
     surface_.resample(active_);
   }
+  sort_strays();
   gather_nodes();
   solve_nodes(dt);
   update_points(dt);
   time_ += dt;
+}
+
+/// Puts points of one cell side by side again when too many have moved on; no rank waits for
+/// another.
+template <int D>
+void SoilSolver<D>::sort_strays() {
+  std::size_t count = 0;
+  for (const auto& points : points_) count += points.size();
+  if (static_cast<double>(point_motion_.strays) <= most_strays * static_cast<double>(count)) return;
+  for (auto& points : points_) sort_by_cell(*grid_, points);
+  point_motion_.strays = 0;
 }
 
 /// Points to faces: sums on owned faces, mirrored walls included.
@@ -275,42 +292,36 @@ bool SoilSolver<D>::exchanges_halos() const {
   return periodic || grid_->ranks() > 1;
 }
 
+/// Grid to points, and their new state, for points few enough to stay in the cache. Returns how
+/// many failed.
+template <int D>
+std::size_t SoilSolver<D>::update_block(std::size_t b, PointRange block, double dt) {
+  auto& points = points_[b];
+  const bool wet = constants_[b].water_density > 0.0;
+  grid_to_points(*grid_, motion_, options_.kernel, options_.transfer,
+                 {options_.flip_fraction, dt, wet}, block, points, point_motion_);
+  const double work = internal_work(points, block, point_motion_, dt, wet);
+  recent_energy_.external += work;  // what the faces' work had taken off
+  const std::size_t without_pores =
+      update_volumes(point_motion_, constants_[b], options_.water_bulk_modulus, dt, block, points);
+  const StressResult result =
+      update_stress(points, block, point_motion_.gradient, *laws_[b], options_.bodies[b].strain,
+                    {dt, time_, grid_->smallest_spacing()});
+  recent_energy_.internal += 0.5 * (work + internal_work(points, block, point_motion_, dt, wet));
+  if (result.failed > 0 && failed_stress_.empty()) note_failed_stress(b, result);
+  return without_pores + result.failed;
+}
+
 template <int D>
 void SoilSolver<D>::update_points(double dt) {
   point_motion_.largest_speed = 0.0;
+  point_motion_.strays = 0;
   std::size_t failed = 0;
-  for (std::size_t b = 0; b < points_.size(); ++b) {
-    auto& points = points_[b];
-    const BodyConstants& body = constants_[b];
-    const bool wet = body.water_density > 0.0;
-    grid_to_points(*grid_, motion_, options_.kernel, options_.transfer, options_.flip_fraction, dt,
-                   wet, points, point_motion_);
-    const double work = internal_work(points, point_motion_, dt, wet);
-    recent_energy_.external += work;  // what the faces' work had taken off
-    for (std::size_t p = 0; p < points.size(); ++p) {
-      const double* g = point_motion_.gradient.data() + p * D * D;
-      double stretch;
-      if constexpr (D == 2) {
-        stretch = (1.0 + g[0]) * (1.0 + g[3]) - g[1] * g[2];
-      } else {
-        stretch = (1.0 + g[0]) * ((1.0 + g[4]) * (1.0 + g[8]) - g[5] * g[7]) -
-                  g[1] * (g[3] * (1.0 + g[8]) - g[5] * g[6]) +
-                  g[2] * (g[3] * g[7] - (1.0 + g[4]) * g[6]);
-      }
-      points.volume[p] *= stretch;
-      if (!wet) continue;
-      const double porosity = 1.0 - points.grain_mass[p] / (body.grain_density * points.volume[p]);
-      points.pore_pressure[p] -=
-          dt * options_.water_bulk_modulus / porosity * point_motion_.flux_divergence[p];
-      if (!(porosity > 0.0)) ++failed;
+  for (std::size_t b = 0; b < points_.size(); ++b)
+    for (PointRange block; block.last < points_[b].size();) {
+      block = points_[b].block(block.last, points_per_block);
+      failed += update_block(b, block, dt);
     }
-    const StressResult result =
-        update_stress(points, point_motion_.gradient, *laws_[b], options_.bodies[b].strain,
-                      {dt, time_, grid_->smallest_spacing()});
-    recent_energy_.internal += 0.5 * (work + internal_work(points, point_motion_, dt, wet));
-    if (result.failed > 0) note_failed_stress(b, result);
-    failed += result.failed;
-  }
   std::array<double, 2> mine{point_motion_.largest_speed, static_cast<double>(failed)},
       worst = mine;
   if (grid_->ranks() > 1)

@@ -110,6 +110,8 @@ class SoilSolver {
   void solve_nodes(double dt);
   void solve_face(const NodeSums& sums, double dt, double face_volume, NodeMotion& motion) const;
   void update_points(double dt);
+  std::size_t update_block(std::size_t body, PointRange block, double dt);
+  void sort_strays();
   double squared_force_on_free_faces();
   void settle_energy();
   void advance_implicitly(double dt, int cuts);
