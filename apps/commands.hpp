@@ -17,6 +17,16 @@ struct RunArguments {
 };
 ExitCode run_command(const RunArguments& arguments, const std::vector<std::string>& command_line);
 
+struct StrengthReductionArguments {
+  std::string case_file, results;
+  double lower = 1.0, upper = 3.0, tolerance = 0.02;
+  std::optional<double> largest_displacement;  ///< [m]
+  int ranks = 1;
+  std::vector<std::string> overrides;
+};
+ExitCode strength_reduction_command(const StrengthReductionArguments& arguments,
+                                    const std::vector<std::string>& command_line);
+
 struct CheckArguments {
   std::string case_file, picture;
   std::vector<std::string> overrides;

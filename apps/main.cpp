@@ -10,7 +10,7 @@
 namespace mudlark {
 namespace {
 
-/// The words of `run` without -n, for the ranks that -n starts.
+/// The words of the command without -n, for the ranks that -n starts.
 std::vector<std::string> without_ranks(int argc, char** argv) {
   std::vector<std::string> words;
   for (int i = 1; i < argc; ++i) {
@@ -44,6 +44,30 @@ void add_run(CLI::App& app, RunArguments& run) {
       ->type_name("KEY=VALUE");
 }
 
+void add_strength_reduction(CLI::App& app, StrengthReductionArguments& search) {
+  CLI::App* command = app.add_subcommand(
+      "strength-reduction", "Factor of safety: the strength is reduced until the soil fails");
+  command->add_option("case", search.case_file, "Case file (TOML)")
+      ->required()
+      ->type_name("CASE.toml");
+  command->add_option("--lower", search.lower, "Factor at which the soil stands [1]");
+  command->add_option("--upper", search.upper, "Factor at which it fails [3]");
+  command->add_option("--tolerance", search.tolerance, "Width of the bracket at the end [0.02]");
+  command->add_option("--largest-displacement", search.largest_displacement,
+                      "Soil that moved further has failed, in m [a tenth of a cell]");
+  command->add_option("-n,--ranks", search.ranks, "Number of ranks (MPI processes) to start")
+      ->check(CLI::Range(1, 1 << 20))
+      ->type_name("RANKS");
+  command
+      ->add_option("-o,--output", search.results,
+                   "Results folder [results/<name of the case file>]")
+      ->type_name("DIR");
+  command
+      ->add_option("--set", search.overrides,
+                   "Override a key of the case file: soil.0.porosity=0.35")
+      ->type_name("KEY=VALUE");
+}
+
 void add_check(CLI::App& app, CheckArguments& check) {
   CLI::App* command = app.add_subcommand(
       "check", "Validate a case; print every resolved value, stable steps, memory and cost");
@@ -64,9 +88,11 @@ ExitCode command_line(int argc, char** argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", version_text);
   RunArguments run;
+  StrengthReductionArguments search;
   CheckArguments check;
   std::string name, results;
   add_run(app, run);
+  add_strength_reduction(app, search);
   add_check(app, check);
   CLI::App* cases = app.add_subcommand("cases", "List the shipped cases, or copy one here to edit");
   cases->add_option("name", name, "Case to copy")->type_name("NAME");
@@ -88,6 +114,8 @@ ExitCode command_line(int argc, char** argv) {
     return app.exit(error) == 0 ? ExitCode::done : ExitCode::wrong_input;
   }
   if (app.got_subcommand("run")) return run_command(run, without_ranks(argc, argv));
+  if (app.got_subcommand("strength-reduction"))
+    return strength_reduction_command(search, without_ranks(argc, argv));
   if (app.got_subcommand("check")) return check_command(check);
   if (app.got_subcommand(cases)) return cases_command(name);
   if (app.got_subcommand(info)) return info_command(results);

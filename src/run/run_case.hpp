@@ -12,10 +12,11 @@
 namespace mudlark {
 
 struct RunSettings {
-  std::filesystem::path results;  ///< results folder, made when missing
-  bool resume = false;            ///< go on from results/checkpoint
-  bool quiet = false;             ///< no progress lines
-  std::optional<double> until;    ///< [s], stop earlier (or later) than the case says
+  std::filesystem::path results;               ///< results folder, made when missing
+  bool resume = false;                         ///< go on from results/checkpoint
+  bool quiet = false;                          ///< no progress lines
+  std::optional<double> until;                 ///< [s], stop earlier (or later) than the case says
+  std::optional<double> largest_displacement;  ///< [m], the run ends once soil has moved further
   MPI_Comm comm = MPI_COMM_WORLD;
 };
 

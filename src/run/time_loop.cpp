@@ -37,6 +37,13 @@ void note_added_mass(World<D>& world, Results<D>& results, double dt, bool& note
       world.clock().time(), a, world.options().coupling.added_mass_factor));
 }
 
+/// Has soil moved further than the run is meant for?
+template <int D>
+bool moved_too_far(World<D>& world, const RunSettings& settings) {
+  return settings.largest_displacement && world.soil() &&
+         world.soil()->largest_displacement() > *settings.largest_displacement;
+}
+
 /// The lines of log.txt: what runs, how far it is every few seconds, how it ended.
 template <int D>
 class RunLog {
@@ -84,6 +91,7 @@ ExitCode run_to_end(World<D>& world, Results<D>& results, const RunSettings& set
     while (!clock.finished()) {
       const double dt = clock.choose_step(world.stable_step());
       world.advance(dt);
+      if (moved_too_far(world, settings)) clock.stop();
       note_added_mass(world, results, dt, noted);
       results.write_due(world);
       log.step(dt);
@@ -102,7 +110,9 @@ ExitCode run_to_end(World<D>& world, Results<D>& results, const RunSettings& set
       }
     }
     results.write_checkpoint(world);
-    log.end(clock.stopped() ? "at rest" : "done");
+    log.end(moved_too_far(world, settings) ? "moved too far"
+            : clock.stopped()              ? "at rest"
+                                           : "done");
     results.write_summary(world, "done", "");
     return ExitCode::done;
   } catch (const DivergenceError& error) {

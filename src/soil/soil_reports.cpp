@@ -1,6 +1,7 @@
 /// What the soil solver says of itself: sums over all points, and the point that went wrong.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/errors.hpp"
@@ -68,6 +69,22 @@ void SoilSolver<D>::report_bad_point(double largest_speed, std::size_t failed) c
 }
 
 template <int D>
+double SoilSolver<D>::largest_displacement() const {
+  double largest = 0.0;
+  for (const SoilParticles<D>& points : points_)
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      double squared = 0.0;
+      for (int a = 0; a < D; ++a) {
+        const double moved = points.position[a][p] - points.start[a][p];
+        squared += moved * moved;
+      }
+      largest = std::max(largest, squared);
+    }
+  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, grid_->comm());
+  return std::sqrt(largest);
+}
+
+template <int D>
 typename SoilSolver<D>::Totals SoilSolver<D>::totals() const {
   std::array<double, 5 + D> mine{};
   double total_grain_mass = 0.0;
@@ -108,6 +125,8 @@ template void SoilSolver<2>::note_failed_stress(std::size_t, const StressResult&
 template void SoilSolver<3>::note_failed_stress(std::size_t, const StressResult&);
 template void SoilSolver<2>::report_bad_point(double, std::size_t) const;
 template void SoilSolver<3>::report_bad_point(double, std::size_t) const;
+template double SoilSolver<2>::largest_displacement() const;
+template double SoilSolver<3>::largest_displacement() const;
 template SoilSolver<2>::Totals SoilSolver<2>::totals() const;
 template SoilSolver<3>::Totals SoilSolver<3>::totals() const;
 

@@ -83,6 +83,9 @@ class SoilSolver {
   };
   Totals totals() const;  ///< over all ranks; collective
 
+  /// Largest distance of a point from its place at the start [m]. Collective.
+  double largest_displacement() const;
+
   /// How far from rest the soil is, with the loads at the end of the step; nothing before the first
   /// step. Collective.
   std::optional<Statics> statics();
