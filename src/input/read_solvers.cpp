@@ -61,6 +61,12 @@ EquilibriumStart read_equilibrium(Section& solver, const Bounds& coefficient) {
 
 /// Local damping of both phases, scaled inertia, and when to stop.
 void read_statics(Section& section, SoilOptions& soil, bool water_flows) {
+  if (soil.method == TimeMethod::implicit_steps) {  // without their defaults in the resolved case
+    for (const std::string_view key : {"damping", "water_damping", "mass_scaling",
+                                       "stop_when_static", "start_in_equilibrium"})
+      section.forbid(key, "implicit steps have no inertia: they are at rest after each step");
+    return;
+  }
   const Bounds coefficient{.lower = 0.0,
                            .upper = 1.0,
                            .upper_included = false,
@@ -102,16 +108,16 @@ void read_soil_solver(Section& root, SoilOptions& soil, bool water_flows,
       section.number("flip_fraction", quantity::number,
                      {.lower = 0.0, .upper = 1.0, .reason = "a share between 0 (PIC) and 1 (FLIP)"},
                      soil.flip_fraction);
+  soil.method = section.choice<TimeMethod>(
+      "method",
+      {{"explicit", TimeMethod::explicit_steps}, {"implicit", TimeMethod::implicit_steps}},
+      soil.method);
   read_statics(section, soil, water_flows);
   soil.courant = section.number("courant", quantity::number,
                                 share(1.0, "a share of the stable step, above 0 and at most 1"),
                                 courant.value_or(soil.courant));
   soil.max_step =
       section.number_if_set("max_step", quantity::time, positive("a step needs a length above 0"));
-  soil.method = section.choice<TimeMethod>(
-      "method",
-      {{"explicit", TimeMethod::explicit_steps}, {"implicit", TimeMethod::implicit_steps}},
-      soil.method);
   soil.step_tolerance = section.number(
       "step_tolerance", quantity::number,
       share(1.0, "the error of an implicit step as a share of the largest displacement so far"),
@@ -121,9 +127,6 @@ void read_soil_solver(Section& root, SoilOptions& soil, bool water_flows,
       soil.load_form);
   if (section.has("body_acceleration"))
     soil.body_acceleration = section.varying_per_axis("body_acceleration", quantity::acceleration);
-  if (soil.method == TimeMethod::implicit_steps)
-    for (const std::string_view key : {"mass_scaling", "stop_when_static", "start_in_equilibrium"})
-      section.forbid(key, "implicit steps have no inertia: they are at rest after each step");
   if (soil.method == TimeMethod::implicit_steps && soil.load_form == LoadForm::facets)
     section.fail("load_form", "implicit steps load the soil by a virtual stress",
                  "Leave the key out.");
