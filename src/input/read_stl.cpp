@@ -67,30 +67,10 @@ std::vector<Triangle> read_triangles(const std::filesystem::path& path) {
   return triangles;
 }
 
-/// A relative path belongs to the folder of the case file, or else to the working directory; what
-/// is recorded holds from everywhere. Empty after a mistake.
-std::filesystem::path read_path(Section& shape) {
-  const Value* value = shape.raw("stl");
-  const auto* text = value ? std::get_if<std::string>(&value->data) : nullptr;
-  if (!text || text->empty()) {
-    shape.fail("stl", "the path of an STL file is expected", "For example \"hull.stl\".");
-    return {};
-  }
-  namespace fs = std::filesystem;
-  const fs::path beside = fs::path(shape.place("stl").origin).parent_path() / *text;
-  const fs::path path =
-      fs::absolute(fs::exists(beside) ? beside : fs::path(*text)).lexically_normal();
-  shape.record().value("stl", toml_text(path.string()));
-  if (fs::is_regular_file(path)) return path;
-  shape.fail("stl",
-             "there is no such file, neither beside the case file nor in the working directory");
-  return {};
-}
-
 }  // namespace
 
 std::optional<Shape> read_stl(Section& shape) {
-  const std::filesystem::path path = read_path(shape);
+  const std::filesystem::path path = shape.file("stl", "an STL file", "\"hull.stl\"");
   const double scale =
       shape.number("scale", quantity::number,
                    positive("lengths of the file are multiplied by it, to metres"), 1.0);

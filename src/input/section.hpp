@@ -2,6 +2,7 @@
 /// Strict reader of one table of a case file: it reports what is wrong with a key and goes on with
 /// the rest, remembers which keys it was asked for, and records every value that holds.
 #include <array>
+#include <filesystem>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -87,6 +88,9 @@ class Section {
   Varying varying(std::string_view key, const Quantity& quantity, const Bounds& bounds,
                   std::optional<double> fallback = {});
   std::array<Varying, 3> varying_per_axis(std::string_view key, const Quantity& quantity);
+  /// The path of a file that exists. A relative one belongs to the folder of the case file, or else
+  /// to the working directory; what is recorded holds from everywhere. Empty after a mistake.
+  std::filesystem::path file(std::string_view key, std::string_view kind, std::string_view example);
 
   /// `later`: words that a later version will know.
   template <class T>
@@ -131,6 +135,9 @@ class Section {
   std::optional<Varying> table_of_times(const Table& table, const Value& value,
                                         const std::string& name, const Quantity& quantity,
                                         const Bounds& bounds);
+  std::optional<Varying> record_of_times(const Table& table, const Value& value,
+                                         const std::string& name, const Quantity& quantity,
+                                         const Bounds& bounds);
   bool check(const Value& value, const std::string& name, double number, const Bounds& bounds);
 
   const Table* table_;

@@ -97,7 +97,9 @@ std::optional<Varying> Section::varying_value(const Value& value, const std::str
                                               const Quantity& quantity, const Bounds& bounds,
                                               std::string& recorded) {
   if (const auto* table = std::get_if<Table>(&value.data)) {
-    auto varying = table_of_times(*table, value, name, quantity, bounds);
+    auto varying = find_entry(*table, "csv")
+                       ? record_of_times(*table, value, name, quantity, bounds)
+                       : table_of_times(*table, value, name, quantity, bounds);
     if (varying) recorded = varying->text;
     return varying;
   }
@@ -128,7 +130,8 @@ std::optional<Varying> Section::varying_value(const Value& value, const std::str
   reading_->report.add_impossible(
       value.place, name, value.written, problem,
       fmt::format("Write {} such as {}, an expression of x, y, z, t (sin, exp, min, max, pi, "
-                  "condition ? a : b), or {{ time = [...], value = [...] }}.",
+                  "condition ? a : b), {{ time = [...], value = [...] }}, or {{ csv = "
+                  "\"file.csv\", column = 2 }}.",
                   quantity.name, quantity.example));
   return {};
 }
