@@ -64,11 +64,14 @@ void read_law(Section& soil, SoilBody& body) {
                                  {"mu-i", &read_mu_i},
                                  {"newtonian", &read_newtonian},
                                  {"sanisand", &read_sanisand},
+                                 {"sekiguchi-ohta", &read_sekiguchi_ohta},
                                  {"tresca", &read_tresca},
                                  {"umat", &read_umat},
                                  {"von-mises", &read_von_mises}},
-                                {}, {"neo-hookean", "sekiguchi-ohta", "hypoplastic", "bingham"});
+                                {}, {"neo-hookean", "hypoplastic", "bingham"});
   if (reader) body.law = reader(section);
+  if (auto* law = std::get_if<SekiguchiOhtaOptions>(&body.law))
+    resolve_dilatancy(section, body.porosity, *law);
   if (auto* law = std::get_if<MuIOptions>(&body.law)) law->grain_density = body.grain_density;
   const bool good = report.size() == before;
   const bool yields = good && reader && make_soil_model(body.law)->yields();

@@ -1,4 +1,6 @@
 /// law = { type = "modified-cam-clay", ... }: laws that know void ratio and critical state.
+#include <fmt/format.h>
+
 #include <array>
 #include <limits>
 
@@ -31,6 +33,10 @@ void read_indices(Section& section, CriticalStateOptions& law) {
     section.fail("swelling_index",
                  "not below compression_index: virgin compression would leave no plastic strain",
                  "Usually a tenth to a third of it.");
+  law.poisson_ratio = read_poisson_ratio(section);
+}
+
+void read_critical_stress_ratio(Section& section, CriticalStateOptions& law) {
   law.critical_stress_ratio =
       section.number("critical_stress_ratio", quantity::number,
                      {.lower = 0.0,
@@ -39,7 +45,15 @@ void read_indices(Section& section, CriticalStateOptions& law) {
                       .upper_included = false,
                       .reason = "M = 6 sin(phi) / (3 - sin(phi)) lies between 0 and 3",
                       .cure = "25 degrees of friction are 0.98."});
-  law.poisson_ratio = read_poisson_ratio(section);
+}
+
+/// M, or the coefficient of dilatancy D that it follows from.
+void read_dilatancy(Section& section, SekiguchiOhtaOptions& law) {
+  if (!section.has("dilatancy_coefficient")) return read_critical_stress_ratio(section, law);
+  section.forbid("critical_stress_ratio", "follows from dilatancy_coefficient");
+  law.dilatancy_coefficient =
+      read_number(section, "dilatancy_coefficient", "D, the volume lost per stress ratio",
+                  "Clay has 0.02-0.1; or give critical_stress_ratio instead.");
 }
 
 void read_overconsolidation(Section& section, CriticalStateOptions& law) {
@@ -104,8 +118,36 @@ constexpr std::array<SanisandKey, 15> sanisand_keys{{
 SoilLawOptions read_modified_cam_clay(Section& section) {
   ModifiedCamClayOptions law;
   read_indices(section, law);
+  read_critical_stress_ratio(section, law);
   read_overconsolidation(section, law);
   return law;
+}
+
+SoilLawOptions read_sekiguchi_ohta(Section& section) {
+  SekiguchiOhtaOptions law;
+  read_indices(section, law);
+  read_dilatancy(section, law);
+  law.consolidation_ratio =
+      section
+          .number_if_set(
+              "consolidation_ratio", quantity::number,
+              positive("K0 of the virgin consolidation under the vertical stress",
+                       "Clay has 0.4-0.7; without the key it is that of initial_stress."))
+          .value_or(law.consolidation_ratio);
+  read_overconsolidation(section, law);
+  return law;
+}
+
+void resolve_dilatancy(Section& section, double porosity, SekiguchiOhtaOptions& law) {
+  if (law.dilatancy_coefficient == 0.0) return;
+  law.critical_stress_ratio =
+      (law.compression_index - law.swelling_index) * (1.0 - porosity) / law.dilatancy_coefficient;
+  if (law.critical_stress_ratio >= 3.0)
+    section.fail("dilatancy_coefficient",
+                 fmt::format("the critical stress ratio M = (compression_index - swelling_index) "
+                             "(1 - porosity) / D would be {:.3g}, and lies below 3",
+                             law.critical_stress_ratio),
+                 "Clay has 0.02-0.1; or give critical_stress_ratio instead.");
 }
 
 SoilLawOptions read_sanisand(Section& section) {

@@ -45,6 +45,9 @@ SoilLawOptions read_newtonian(Section& law);
 /// Laws that know void ratio and critical state.
 SoilLawOptions read_modified_cam_clay(Section& law);
 SoilLawOptions read_sanisand(Section& law);
+SoilLawOptions read_sekiguchi_ohta(Section& law);
+/// M from D and the porosity of the body, where the case gives D.
+void resolve_dilatancy(Section& section, double porosity, SekiguchiOhtaOptions& law);
 /// A law that the user compiled.
 SoilLawOptions read_umat(Section& law);
 /// [[wave]]: after [domain] and [water].

@@ -17,6 +17,14 @@ struct CriticalStateOptions {
 
 struct ModifiedCamClayOptions : CriticalStateOptions {};
 
+struct SekiguchiOhtaOptions : CriticalStateOptions {
+  /// K0 of the virgin consolidation under the vertical stress [-], from which eta* is measured;
+  /// negative: the ratio of the initial stress, component by component.
+  double consolidation_ratio = -1.0;
+  /// D [-] = (lambda - kappa) / (M (1 + e_0)), given instead of M; 0: M is given.
+  double dilatancy_coefficient = 0.0;
+};
+
 /// Parameters of Dafalias & Manzari (2004), with their letters.
 struct SanisandOptions {
   double shear_coefficient = 0.0;      ///< G_0 [-]

@@ -99,6 +99,6 @@ struct NewtonianOptions {
 using SoilLawOptions =
     std::variant<LinearElasticOptions, MohrCoulombOptions, TrescaOptions, VonMisesOptions,
                  DruckerPragerOptions, MuIOptions, NewtonianOptions, ModifiedCamClayOptions,
-                 SanisandOptions, UmatOptions>;
+                 SekiguchiOhtaOptions, SanisandOptions, UmatOptions>;
 
 }  // namespace mudlark

@@ -38,13 +38,15 @@ struct PorousElasticity {
     return old + 2.0 * shear_ratio * secant * deviator_of(strain) +
            (after - pressure) * SymTensor::identity();
   }
-
- private:
-  double moved(double pressure, double swing) const {
+  /// int dp / max(p, floor) from no stress to p: 1 + ln(p / floor) above the floor.
+  double level(double pressure) const {
     const double ratio = pressure / mean_stress_floor;
-    const double start = ratio >= 1.0 ? std::log(ratio) + 1.0 : ratio;
-    const double end = start + swing;
-    if (ratio >= 1.0 && end >= 1.0) return pressure * std::exp(swing);
+    return ratio >= 1.0 ? std::log(ratio) + 1.0 : ratio;
+  }
+  /// The pressure whose level is that of `pressure` and `swing` more.
+  double moved(double pressure, double swing) const {
+    const double end = level(pressure) + swing;
+    if (pressure >= mean_stress_floor && end >= 1.0) return pressure * std::exp(swing);
     return mean_stress_floor * (end >= 1.0 ? std::exp(end - 1.0) : end);
   }
 };

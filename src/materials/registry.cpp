@@ -7,6 +7,7 @@
 #include "materials/mu_i.hpp"
 #include "materials/newtonian.hpp"
 #include "materials/sanisand.hpp"
+#include "materials/sekiguchi_ohta.hpp"
 #include "materials/tresca.hpp"
 #include "materials/umat.hpp"
 #include "materials/von_mises.hpp"
@@ -20,6 +21,9 @@ struct Maker {
   }
   std::unique_ptr<SoilModel> operator()(const ModifiedCamClayOptions& options) const {
     return std::make_unique<ModifiedCamClay>(options);
+  }
+  std::unique_ptr<SoilModel> operator()(const SekiguchiOhtaOptions& options) const {
+    return std::make_unique<SekiguchiOhta>(options);
   }
   std::unique_ptr<SoilModel> operator()(const SanisandOptions& options) const {
     return std::make_unique<Sanisand>(options);

@@ -4,6 +4,7 @@
 /// Engineering Computations 18, 121-194.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/vec.hpp"
 
@@ -14,33 +15,25 @@ struct SubstepControl {
   double smallest = 1e-7;   ///< share of the increment below which a point counts as failed
 };
 
-/// Moves `state` along `strain`. `rate(state, strain)` gives the change of state for a strain;
-/// `correct(state)` puts the result back on the yield surface and says whether it could. State
-/// needs sum, product with a number, and `relative_error(error, state)`. Returns whether the whole
-/// increment was integrated; `state` is of use only then.
-template <class State, class Rate, class Correct>
-bool integrate_in_substeps(State& state, const SymTensor& strain, const SubstepControl& control,
-                           const Rate& rate, const Correct& correct) {
+/// Goes through an increment in sub-steps. `attempt(share)` tries one over that share of it, moves
+/// the state on only if its error is within the tolerance, and returns the error; infinity where no
+/// answer was found. Returns whether the whole increment was gone through.
+template <class Attempt>
+bool in_substeps(const SubstepControl& control, const Attempt& attempt) {
   double done = 0.0, share = 1.0;
   bool just_refused = false;
   while (done < 1.0) {
-    const SymTensor part = share * strain;
-    const State first = rate(state, part);
-    const State second = rate(state + first, part);
-    State next = state + 0.5 * (first + second);
-    const double error = relative_error(0.5 * (second + -1.0 * first), next);
+    const double error = attempt(share);
     // A comparison that is false for NaN too.
-    const bool good = error <= control.tolerance && correct(next);
-    if (!good) {
+    if (!(error <= control.tolerance)) {
       if (share <= control.smallest) return false;
-      const double factor = std::isfinite(error) && error > control.tolerance
+      const double factor = std::isfinite(error)
                                 ? std::clamp(0.9 * std::sqrt(control.tolerance / error), 0.1, 0.9)
                                 : 0.1;
       share = std::max(control.smallest, factor * share);
       just_refused = true;
       continue;
     }
-    state = next;
     done += share;
     const double growth =
         error > 0.0 ? std::clamp(0.9 * std::sqrt(control.tolerance / error), 0.1, 2.0) : 2.0;
@@ -51,6 +44,26 @@ bool integrate_in_substeps(State& state, const SymTensor& strain, const SubstepC
     if (1.0 - done < 1e-12) break;
   }
   return true;
+}
+
+/// Moves `state` along `strain`. `rate(state, strain)` gives the change of state for a strain;
+/// `correct(state)` puts the result back on the yield surface and says whether it could. State
+/// needs sum, product with a number, and `relative_error(error, state)`. Returns whether the whole
+/// increment was integrated; `state` is of use only then.
+template <class State, class Rate, class Correct>
+bool integrate_in_substeps(State& state, const SymTensor& strain, const SubstepControl& control,
+                           const Rate& rate, const Correct& correct) {
+  return in_substeps(control, [&](double share) {
+    const SymTensor part = share * strain;
+    const State first = rate(state, part);
+    const State second = rate(state + first, part);
+    State next = state + 0.5 * (first + second);
+    const double error = relative_error(0.5 * (second + -1.0 * first), next);
+    if (!(error <= control.tolerance)) return error;
+    if (!correct(next)) return std::numeric_limits<double>::infinity();
+    state = next;
+    return error;
+  });
 }
 
 /// Share of an elastic increment at which the yield function f(share) passes `target`, between

@@ -76,6 +76,33 @@ TEST(PlasticRotation, TurnsTheStressOfAYieldingPointAndChangesNothingElse) {
     }
 }
 
+/// The ratio eta_0 of Sekiguchi-Ohta's consolidation lies in the soil and turns with it.
+TEST(PlasticRotation, TurnsTheAnisotropyOfSekiguchiOhtaWithTheSoil) {
+  SekiguchiOhtaOptions clay;
+  clay.compression_index = 0.2, clay.swelling_index = 0.04, clay.critical_stress_ratio = 1.1;
+  clay.consolidation_ratio = 0.5;
+  const auto law = make_soil_model(clay);
+  SoilParticles<3> still = one_point(*law, StrainMeasure::jaumann),
+                   turned = one_point(*law, StrainMeasure::jaumann);
+  Matrix shear;
+  shear << 1e-4, 3e-4, 4e-4, -1e-4, 0, 2e-4, 2e-4, 0, -3e-4;
+  const Matrix turn =
+      (Eigen::AngleAxisd(0.02, Eigen::Vector3d(1, 2, -1).normalized())).toRotationMatrix();
+  Matrix frame = Matrix::Identity();
+  for (int round = 0; round < 5; ++round) {
+    for (int i = 0; i < 20; ++i) {
+      take_step(still, shear, *law, StrainMeasure::jaumann);
+      take_step(turned, frame * shear * frame.transpose(), *law, StrainMeasure::jaumann);
+    }
+    for (int i = 0; i < 40; ++i) {
+      take_step(turned, turn - Matrix::Identity(), *law, StrainMeasure::jaumann);
+      frame = turn * frame;
+    }
+    const Matrix expected = frame * stress_of(still) * frame.transpose();
+    EXPECT_LT((stress_of(turned) - expected).norm(), 1e-9 * expected.norm()) << round;
+  }
+}
+
 TEST(PlasticRotation, HenckyAndJaumannAgreeAsLongAsElasticStrainsAreSmall) {
   for (const SoilLawOptions& options : laws()) {
     const auto law = make_soil_model(options);
