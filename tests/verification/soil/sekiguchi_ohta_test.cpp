@@ -29,7 +29,7 @@ SoilOptions clay(Transfer transfer, TimeMethod method) {
 /// lambda ln 4, and every point keeps its ratio of stresses.
 template <int D>
 void expect_virgin_compression(TimeMethod method) {
-  const int cells = 8;
+  const int cells = D == 2 ? 8 : 5;
   const Grid<D> grid = soil_runs::make_grid<D>({3, D == 2 ? cells + 2 : 3, cells + 2}, 1.0 / cells,
                                                D == 2 ? "ssso" : "ssssso");
   SoilOptions options = clay<D>(Transfer::flip, method);
