@@ -62,8 +62,8 @@ EquilibriumStart read_equilibrium(Section& solver, const Bounds& coefficient) {
 /// Local damping of both phases, scaled inertia, and when to stop.
 void read_statics(Section& section, SoilOptions& soil, bool water_flows) {
   if (soil.method == TimeMethod::implicit_steps) {  // without their defaults in the resolved case
-    for (const std::string_view key : {"damping", "water_damping", "mass_scaling",
-                                       "stop_when_static", "start_in_equilibrium"})
+    for (const std::string_view key :
+         {"damping", "water_damping", "mass_scaling", "stop_when_static", "start_in_equilibrium"})
       section.forbid(key, "implicit steps have no inertia: they are at rest after each step");
     return;
   }

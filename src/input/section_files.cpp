@@ -36,10 +36,10 @@ double unit_factor(Section& section, std::string_view key, std::string unit,
   if (unit.empty() || unit == "-" || unit == "1") return 1.0;
   const auto reading = section.reading().units.read("1 " + unit, quantity);
   if (reading && reading->value) return *reading->value;
-  section.fail(section.has(key) ? key : "csv",
-               fmt::format("its unit is \"{}\": {}", unit,
-                           reading ? reading->problem : "that is no unit"),
-               fmt::format("Write {} = \"{}\", or what it is in.", key, quantity.unit));
+  section.fail(
+      section.has(key) ? key : "csv",
+      fmt::format("its unit is \"{}\": {}", unit, reading ? reading->problem : "that is no unit"),
+      fmt::format("Write {} = \"{}\", or what it is in.", key, quantity.unit));
   return std::nan("");
 }
 
@@ -49,7 +49,8 @@ fs::path Section::file(std::string_view key, std::string_view kind, std::string_
   const Value* value = raw(key);
   const auto* text = value ? std::get_if<std::string>(&value->data) : nullptr;
   if (!text || text->empty()) {
-    fail(key, fmt::format("the path of {} is expected", kind), fmt::format("For example {}.", example));
+    fail(key, fmt::format("the path of {} is expected", kind),
+         fmt::format("For example {}.", example));
     return {};
   }
   const fs::path beside = fs::path(place(key).origin).parent_path() / *text;
@@ -85,8 +86,8 @@ std::optional<Varying> Section::record_of_times(const Table& table, const Value&
   }
   std::string unit, time_unit;
   const double scale = factor * unit_factor(section, "unit", record.unit, quantity, unit);
-  const double second = unit_factor(section, "time_unit", record.time_unit,
-                                    mudlark::quantity::time, time_unit);
+  const double second =
+      unit_factor(section, "time_unit", record.time_unit, mudlark::quantity::time, time_unit);
   if (reading_->report.size() > before) return {};
   for (std::size_t i = 0; i < record.times.size(); ++i) {
     record.times[i] *= second, record.values[i] *= scale;
@@ -99,9 +100,10 @@ std::optional<Varying> Section::record_of_times(const Table& table, const Value&
   }
   return interpolate_in_time(
       std::move(record.times), std::move(record.values),
-      fmt::format("{{ csv = {}, column = {}, time_column = {}, unit = {}, time_unit = {}, factor = {} }}",
-                  toml_text(path.string()), record.column, columns.time, toml_text(unit),
-                  toml_text(time_unit), toml_number(factor)));
+      fmt::format(
+          "{{ csv = {}, column = {}, time_column = {}, unit = {}, time_unit = {}, factor = {} }}",
+          toml_text(path.string()), record.column, columns.time, toml_text(unit),
+          toml_text(time_unit), toml_number(factor)));
 }
 
 }  // namespace mudlark

@@ -65,7 +65,9 @@ std::string unit_in(std::string_view title) {
   return std::string(trimmed(title.substr(open + 1, close - open - 1)));
 }
 
-std::string_view name_in(std::string_view title) { return trimmed(title.substr(0, title.find('['))); }
+std::string_view name_in(std::string_view title) {
+  return trimmed(title.substr(0, title.find('[')));
+}
 
 /// Reads one file line by line.
 class Reader {

@@ -10,10 +10,15 @@
 namespace mudlark {
 namespace {
 
-constexpr std::array<std::string_view, 9> names{
-    "consolidation ratio xx [-]",     "consolidation ratio yy [-]", "consolidation ratio zz [-]",
-    "consolidation ratio xy [-]",     "consolidation ratio yz [-]", "consolidation ratio zx [-]",
-    "preconsolidation pressure [Pa]", "void ratio [-]",             "separation [-]"};
+constexpr std::array<std::string_view, 9> names{"consolidation ratio xx [-]",
+                                                "consolidation ratio yy [-]",
+                                                "consolidation ratio zz [-]",
+                                                "consolidation ratio xy [-]",
+                                                "consolidation ratio yz [-]",
+                                                "consolidation ratio zx [-]",
+                                                "preconsolidation pressure [Pa]",
+                                                "void ratio [-]",
+                                                "separation [-]"};
 constexpr std::array<std::size_t, 1> tensors{0};
 constexpr std::size_t variables = names.size();
 constexpr std::size_t size_at = 6, void_ratio_at = 7, separation_at = 8;
@@ -30,6 +35,8 @@ constexpr double rounding = 0.005;
 /// Error of backward Euler that a sub-step may have; what extrapolation leaves of it is about its
 /// power of 3/2.
 constexpr double substep_error = 5e-4;
+/// Error of a backward Euler step that needs no second opinion.
+constexpr double small_step = 1e-5;
 
 double norm_of(const SymTensor& t) { return std::sqrt(t.squared_norm()); }
 
@@ -42,67 +49,91 @@ double SekiguchiOhta::shape(double length) const {
 /// A backward Euler step in the unknown `lost`, the plastic loss of specific volume. The exact
 /// elastic law gives p and the direction m of eta - eta_0, which the flow rule
 ///   de^p = L r m,  d eps_v^p = L (1 - r m:eta),  r = d(eta*/M)/d|eta - eta_0|
-/// keeps, and what is left is one equation.
+/// keeps, and what is left is one equation. With old d = eta - eta_0 and the strain's deviator e,
+/// eta - eta_0 without plastic strain of shape is  share d + (share - 1) eta_0 + stiffness e.
 class SekiguchiOhta::Substep {
  public:
   Substep(const SekiguchiOhta& law, const State& old, const SymTensor& axis,
           const SymTensor& strain)
       : law_(law), old_(old), axis_(axis), deviator_(deviator_of(strain)) {
-    const double volumetric = strain.trace();
-    volume_ = PorousElasticity::compressed(old.volume, volumetric);
-    const double compressed = old.volume * -std::expm1(-volumetric);
-    mean_volume_ = std::abs(volumetric) > 1e-9 ? compressed / volumetric : old.volume;
-    swing_ = compressed / law.options_.swelling_index;
+    const CriticalStateOptions& options = law.options_;
+    const double volumetric = strain.trace(), compressed = old.volume * -std::expm1(-volumetric);
+    const double mean_volume = std::abs(volumetric) > 1e-9 ? compressed / volumetric : old.volume;
+    volume_ = old.volume - compressed;
+    swing_ = compressed / options.swelling_index;
+    mean_volume_ = mean_volume;
+    stiffness_ = 2.0 * law.elasticity_.shear_ratio * mean_volume / options.swelling_index;
+    log_ratio_ = std::log(old.size / old.pressure);
+    dd_ = contraction(old.distance, old.distance), aa_ = contraction(axis, axis);
+    ee_ = contraction(deviator_, deviator_), da_ = contraction(old.distance, axis);
+    de_ = contraction(old.distance, deviator_), ae_ = contraction(axis, deviator_);
   }
 
   Trial trial(double lost) const {
-    const PorousElasticity& elastic = law_.elasticity_;
-    const double floor = law_.options_.mean_stress_floor;
-    const double change = swing_ - lost / law_.options_.swelling_index;
+    const CriticalStateOptions& options = law_.options_;
+    const double floor = options.mean_stress_floor;
+    const double change = swing_ - lost / options.swelling_index;
+    const double growth = lost / (options.compression_index - options.swelling_index);
     Trial t;
-    // Nothing divides by less; a point with that little is set free of stress afterwards.
-    t.pressure =
-        std::max(elastic.moved(old_.pressure, change), 0.01 * stress_free * floor);
-    t.size = std::max(
-        floor, old_.size * std::exp(lost / (law_.options_.compression_index -
-                                            law_.options_.swelling_index)));
-    const double mean = std::abs(change) > 1e-9 ? (t.pressure - old_.pressure) / change
-                                                : std::max(old_.pressure, floor);
-    const double share = old_.pressure / t.pressure;
-    const double stiffness = 2.0 * elastic.shear_ratio * mean_volume_ /
-                             law_.options_.swelling_index * mean / t.pressure;
-    t.distance = share * old_.distance + (share - 1.0) * axis_ + stiffness * deviator_;
-    t.length = norm_of(t.distance);
-    const double height = law_.blunt_ + std::max(0.0, std::log(t.size / t.pressure));
-    const double share_of_slope = std::sqrt(1.0 - std::pow(law_.blunt_ / height, 2));
-    t.allowed = height * share_of_slope / law_.slope_;
-    const double lean = t.length > 0.0 ? contraction(t.distance, axis_) / t.length : 0.0;
-    const double flow = law_.slope_ * share_of_slope;
-    t.excess = flow * lost -
-               mean_volume_ * (t.length - t.allowed) / stiffness * (1.0 - flow * (lean + t.allowed));
+    t.share = std::exp(-change);
+    double mean, log_ratio = log_ratio_ + growth - change;  // mean: of p, over p at the end
+    if (old_.pressure >= floor && old_.pressure >= floor * t.share) {
+      t.pressure = old_.pressure / t.share;
+      mean = std::abs(change) > 1e-9 ? (1.0 - t.share) / change : 1.0;
+    } else {
+      // Nothing divides by less; a point with that little is set free of stress afterwards.
+      t.pressure =
+          std::max(law_.elasticity_.moved(old_.pressure, change), 0.01 * stress_free * floor);
+      t.share = old_.pressure / t.pressure;
+      mean = std::abs(change) > 1e-9 ? (1.0 - t.share) / change
+                                     : std::max(old_.pressure, floor) / t.pressure;
+      log_ratio = log_ratio_ + growth + std::log(t.share);
+    }
+    log_ratio = std::max(log_ratio, std::log(floor / t.pressure));  // clay remembers the floor
+    t.log_ratio = log_ratio;
+    t.stiffness = stiffness_ * mean;
+    const double b = t.share - 1.0, c = t.stiffness;
+    t.length = std::sqrt(std::max(0.0, t.share * (t.share * dd_ + 2.0 * (b * da_ + c * de_)) +
+                                           b * (b * aa_ + 2.0 * c * ae_) + c * c * ee_));
+    const double height = law_.blunt_ + std::max(0.0, log_ratio);
+    t.flow = law_.slope_ * std::sqrt(1.0 - law_.blunt_ * law_.blunt_ / (height * height));
+    t.allowed = height * t.flow / (law_.slope_ * law_.slope_);
+    const double lean = t.length > 0.0 ? (t.share * da_ + b * aa_ + c * ae_) / t.length : 0.0;
+    t.excess = t.flow * lost -
+               mean_volume_ * (t.length - t.allowed) / c * (1.0 - t.flow * (lean + t.allowed));
     return t;
   }
 
-  /// The loss at which p meets p_c: eta = eta_0, the tip of the cone.
+  /// eta - eta_0 at the end of an elastic step.
+  SymTensor distance(const Trial& t) const {
+    return t.share * old_.distance + (t.share - 1.0) * axis_ + t.stiffness * deviator_;
+  }
+  /// The state at the end of a step with the direction of `towards`, on the yield surface.
+  State on_surface(const Trial& t, const SymTensor& towards) const {
+    const double length = norm_of(towards);
+    return {t.pressure, (length > 0.0 ? t.allowed / length : 0.0) * towards,
+            t.pressure * std::exp(t.log_ratio), volume_};
+  }
+  State elastic(const Trial& t) const { return {t.pressure, distance(t), old_.size, volume_}; }
+
+  /// The loss at which p meets p_c: eta = eta_0, the tip of the surface.
   double lost_at_tip() const {
     const double kappa = law_.options_.swelling_index, lambda = law_.options_.compression_index;
     const PorousElasticity& elastic = law_.elasticity_;
-    const double excess = elastic.level(old_.pressure) + swing_ - elastic.level(old_.size);
-    const double lost = excess * kappa * (lambda - kappa) / lambda;
+    const double level = elastic.level(old_.pressure) + swing_;
+    const double lost = (level - elastic.level(old_.size)) * kappa * (lambda - kappa) / lambda;
     // The clay remembers no less than the floor.
     const double floor = law_.options_.mean_stress_floor;
-    if (old_.size * std::exp(lost / (lambda - kappa)) >= floor) return lost;
-    return kappa * (elastic.level(old_.pressure) + swing_ - 1.0);
+    return old_.size * std::exp(lost / (lambda - kappa)) >= floor ? lost : kappa * (level - 1.0);
   }
-
-  double volume() const { return volume_; }
 
  private:
   const SekiguchiOhta& law_;
   const State& old_;
   const SymTensor& axis_;
   SymTensor deviator_;  ///< of the strain
-  double volume_, mean_volume_, swing_;
+  double volume_, mean_volume_, swing_, stiffness_, log_ratio_;
+  double dd_, aa_, ee_, da_, de_, ae_;  ///< d:d, eta_0:eta_0, e:e, d:eta_0, d:e, eta_0:e
 };
 
 SekiguchiOhta::SekiguchiOhta(const SekiguchiOhtaOptions& options)
@@ -141,8 +172,8 @@ double SekiguchiOhta::wave_modulus(std::span<const SymTensor> stress,
                                    std::span<const double> history) const {
   double bulk = stress.empty() ? elasticity_.bulk(0.0, usual_volume) : 0.0;
   for (std::size_t i = 0; i < stress.size(); ++i)
-    bulk = std::max(bulk, elasticity_.bulk(-mean_of(stress[i]),
-                                           1.0 + history[i * variables + void_ratio_at]));
+    bulk = std::max(
+        bulk, elasticity_.bulk(-mean_of(stress[i]), 1.0 + history[i * variables + void_ratio_at]));
   return bulk * (1.0 + 4.0 / 3.0 * elasticity_.shear_ratio);
 }
 
@@ -171,55 +202,60 @@ SymTensor SekiguchiOhta::stress_of(const State& state, const SymTensor& axis) co
 bool SekiguchiOhta::step(State& state, const SymTensor& axis, const SymTensor& strain,
                          double& lost) const {
   const Substep substep(*this, state, axis, strain);
-  // Between a loss at which the flow rule asks for more (the tip of the surface, where flow turns
-  // to pure loss of volume) and one at which it asks for less.
-  double less = substep.lost_at_tip(), more = 0.0;
-  Trial end = substep.trial(less);
+  // Everything is smooth in u, the height (eta*/M) at which the step ends: 0 is the tip of the
+  // surface, where flow turns to pure loss of volume.
+  const double kappa = options_.swelling_index, tip = substep.lost_at_tip();
+  const double scale = kappa * (1.0 - kappa / options_.compression_index);
+  const auto loss = [&](double u) { return tip + (std::hypot(u, blunt_) - blunt_) * scale; };
+  const auto excess = [&](double u) { return substep.trial(loss(u)).excess; };
+  lost = tip;
+  Trial end = substep.trial(tip);
   if (!std::isfinite(end.excess)) return false;
-  lost = less;
   if (end.excess < 0.0) {
-    Trial other = substep.trial(std::max(more, less));
-    if (other.excess < 0.0) {
-      less = std::max(less, 0.0);
-      double further = 1e-6;
-      for (int i = 0; i < 60 && other.excess < 0.0; ++i, further *= 4.0)
-        other = substep.trial(more = less + further);
+    // Between a height at which the flow rule asks for more and one at which it asks for less.
+    double low = 0.0,
+           high = tip < 0.0 ? std::sqrt(tip / scale * (tip / scale - 2.0 * blunt_)) : 0.0;
+    Trial other = high > 0.0 ? substep.trial(loss(high)) : end;
+    for (int i = 0; i < 60 && other.excess < 0.0; ++i) {
+      low = high;
+      high = std::max(1.5 * low, slope_ * other.length);
+      other = substep.trial(loss(high));
     }
     if (!(other.excess >= 0.0)) return false;
-    const double close = 1e-13 * elasticity_.swelling_index;
-    lost = crossing([&](double loss) { return substep.trial(loss).excess; }, less, more, 0.0,
-                    close);
+    lost = loss(crossing(excess, low, high, 0.0, 1e-12 * kappa * slope_));
     end = substep.trial(lost);
   }
-  state.pressure = end.pressure;
-  state.size = end.size;
-  state.volume = substep.volume();
-  state.distance = (end.length == 0.0 ? 0.0 : end.allowed / end.length) * end.distance;
+  state = substep.on_surface(end, substep.distance(end));
   return true;
 }
 
 /// One step and two half steps; their difference is the error, and what they extrapolate to
-/// (Richardson) the answer.
+/// (Richardson) the answer. A small step by itself is as good.
 double SekiguchiOhta::attempt(State& state, const SymTensor& axis, const SymTensor& strain) const {
   constexpr double no_answer = std::numeric_limits<double>::infinity();
+  const State old = state;
   State whole = state, halves = state;
   double lost_whole = 0.0, lost_first = 0.0, lost_second = 0.0;
-  if (!step(whole, axis, strain, lost_whole) || !step(halves, axis, 0.5 * strain, lost_first) ||
+  if (!step(whole, axis, strain, lost_whole)) return no_answer;
+  const auto apart = [&](const State& one, const State& other) {
+    return std::abs(std::log(one.pressure / other.pressure)) +
+           slope_ * norm_of(difference(one.distance, other.distance));
+  };
+  // The error is about the change squared over the radius at which flow turns.
+  const double change = apart(whole, old), turn = blunt_ + slope_ * norm_of(old.distance);
+  if (change * change < small_step * turn) {
+    state = whole;
+    return 0.0;
+  }
+  if (!step(halves, axis, 0.5 * strain, lost_first) ||
       !step(halves, axis, 0.5 * strain, lost_second))
     return no_answer;
-  const double error = std::abs(std::log(halves.pressure / whole.pressure)) +
-                       slope_ * norm_of(difference(halves.distance, whole.distance));
+  const double error = apart(halves, whole);
   if (!(error <= substep_error)) return error;
-  const State old = state;
-  state = halves;
-  const double lost = 2.0 * (lost_first + lost_second) - lost_whole;
-  const Trial end = Substep(*this, old, axis, strain).trial(lost);
-  const SymTensor direction = 2.0 * halves.distance + -1.0 * whole.distance;
-  const double length = norm_of(direction);
-  state.pressure = end.pressure;
-  state.size = end.size;
-  state.distance = (length > 0.0 ? end.allowed / length : 0.0) * direction;
-  return std::isfinite(end.allowed) ? error : no_answer;
+  const Substep substep(*this, old, axis, strain);
+  const Trial end = substep.trial(2.0 * (lost_first + lost_second) - lost_whole);
+  state = substep.on_surface(end, 2.0 * halves.distance + -1.0 * whole.distance);
+  return std::isfinite(state.size) ? error : no_answer;
 }
 
 /// Which part of a strain is elastic, from a state inside or on the yield surface.
@@ -227,7 +263,7 @@ double SekiguchiOhta::elastic_share(const State& state, const SymTensor& axis,
                                     const SymTensor& strain) const {
   const auto f = [&](double share) {
     const Trial t = Substep(*this, state, axis, share * strain).trial(0.0);
-    return std::log(t.pressure / t.size) + shape(t.length);
+    return shape(t.length) - t.log_ratio;
   };
   if (f(1.0) <= on_surface) return 1.0;
   const double now = f(0.0);
@@ -257,9 +293,11 @@ bool SekiguchiOhta::update_point(SymTensor& stress, const SymTensor& strain_incr
   State state{pressure, difference((1.0 / pressure) * deviator_of(old), axis), history[size_at],
               volume};
   const double share = elastic_share(state, axis, strain);
-  const Substep elastic(*this, state, axis, share * strain);
-  const Trial end = elastic.trial(0.0);
-  state.pressure = end.pressure, state.distance = end.distance, state.volume = elastic.volume();
+  if (share > 0.0) {
+    const State old_state = state;
+    const Substep elastic(*this, old_state, axis, share * strain);
+    state = elastic.elastic(elastic.trial(0.0));
+  }
   SubstepControl control;
   control.tolerance = substep_error;
   if (share < 1.0 && !in_substeps(control, [&](double part) {

@@ -27,7 +27,8 @@ class SekiguchiOhta final : public SoilModel {
   double earth_pressure_at_rest() const override;
   std::size_t update_stress(const MaterialPoints& points) const override;
 
-  /// ln(p/p_c) + (sqrt(eta*^2 + a^2) - a)/M [-], a the rounding of the tip, of a compression-positive stress; `axis` is eta_0.
+  /// ln(p/p_c) + (sqrt(eta*^2 + a^2) - a)/M [-], a the rounding of the tip, of a
+  /// compression-positive stress; `axis` is eta_0.
   double yield_function(const SymTensor& stress, const SymTensor& axis, double size) const;
 
  private:
@@ -40,11 +41,12 @@ class SekiguchiOhta final : public SoilModel {
   /// Where a sub-step ends if it loses `lost` of the specific volume for good, and what its flow
   /// would then lose.
   struct Trial {
-    double pressure, size;
-    SymTensor distance;  ///< eta - eta_0 without plastic strain of shape
-    double length;       ///< norm of it
-    double allowed;      ///< norm that the yield surface allows
-    double excess;       ///< lost less what the flow rule asks for, times d(eta*/M)/d|eta - eta_0|
+    double pressure, log_ratio;  ///< p, ln(p_c/p)
+    double share, stiffness;     ///< of old eta and of the strain in eta without plastic strain
+    double length;               ///< |eta - eta_0| without plastic strain of shape
+    double allowed;              ///< that the yield surface allows
+    double flow;                 ///< r = d(eta*/M)/d|eta - eta_0| there
+    double excess;               ///< r times (lost less what the flow rule asks for)
   };
   class Substep;
 

@@ -38,11 +38,14 @@ class TimeRecordFile : public testing::Test {
   }
   /// The load of a case that says `pressure = ...`, or the mistakes.
   std::variant<Varying, std::string> load(const std::string& pressure) {
-    write("[domain]\nupper = [1, 1]\ncells = [4, 4]\n[time]\nend = 1\n[[soil]]\nname = \"s\"\n"
-          "shape = { box = { lower = [0, 0], upper = [1, 0.5] } }\nporosity = 0.4\n"
-          "pore_water = \"none\"\n"
-          "law = { type = \"linear-elastic\", young_modulus = 1e6, poisson_ratio = 0.3 }\n"
-          "[[load]]\nname = \"q\"\npressure = " + pressure + "\n", "case.toml");
+    write(
+        "[domain]\nupper = [1, 1]\ncells = [4, 4]\n[time]\nend = 1\n[[soil]]\nname = \"s\"\n"
+        "shape = { box = { lower = [0, 0], upper = [1, 0.5] } }\nporosity = 0.4\n"
+        "pore_water = \"none\"\n"
+        "law = { type = \"linear-elastic\", young_modulus = 1e6, poisson_ratio = 0.3 }\n"
+        "[[load]]\nname = \"q\"\npressure = " +
+            pressure + "\n",
+        "case.toml");
     try {
       const CaseOptions options = read_case(folder_ / "case.toml", {});
       resolved_ = options.resolved_toml;
@@ -58,7 +61,8 @@ class TimeRecordFile : public testing::Test {
 
 TEST_F(TimeRecordFile, IsReadWhateverSeparatesItsColumns) {
   for (const std::string text :
-       {"0,1\n0.5,2\n1,-3e-1\n", "\xef\xbb\xbf# made by hand\r\n\r\ntime;load\r\n0; 1\r\n0.5;2\r\n1;-0.3\r\n",
+       {"0,1\n0.5,2\n1,-3e-1\n",
+        "\xef\xbb\xbf# made by hand\r\n\r\ntime;load\r\n0; 1\r\n0.5;2\r\n1;-0.3\r\n",
         "t a\n 0   1\n 0.5 2\n 1  -.3", "0\t1\n0.5\t+2\n1\t-0.3\n\n"}) {
     const TimeRecord record = read(text);
     EXPECT_EQ(record.times, (std::vector{0.0, 0.5, 1.0})) << text;

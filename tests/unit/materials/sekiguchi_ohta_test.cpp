@@ -12,8 +12,8 @@ namespace {
 
 constexpr double lambda = 0.2, kappa = 0.04, m = 1.1, specific_volume = 1.0 / 0.6;
 constexpr double irreversible = 1.0 - kappa / lambda;
-constexpr double k0 = 0.55, start = 1e5;                   // start: mean effective stress
-constexpr double rounding = 0.005;  // a of the rounded tip
+constexpr double k0 = 0.55, start = 1e5;  // start: mean effective stress
+constexpr double rounding = 0.005;        // a of the rounded tip
 constexpr double eta0 = 3.0 * (1.0 - k0) / (1.0 + 2.0 * k0);
 
 SekiguchiOhtaOptions clay(double ratio = 1.0) {
@@ -119,8 +119,8 @@ TEST(SekiguchiOhta, ShearsUndrainedAlongTheClosedPathToTheStrengthOfEachModeOfSh
   }
 }
 
-/// Original Cam-Clay (Roscoe & Schofield 1963): f = q/(M p) + ln(p/p_c); drained compression follows
-/// v = v_0 - lambda ln(p/p_0) - (lambda - kappa) eta/M to q = M p at p = 3 p_0/(3 - M).
+/// Original Cam-Clay (Roscoe & Schofield 1963): f = q/(M p) + ln(p/p_c); drained compression
+/// follows v = v_0 - lambda ln(p/p_0) - (lambda - kappa) eta/M to q = M p at p = 3 p_0/(3 - M).
 TEST(SekiguchiOhta, FromEvenStressIsTheOriginalCamClay) {
   const SekiguchiOhta law(clay());
   TestPoint undrained(law, even(start));
@@ -133,8 +133,8 @@ TEST(SekiguchiOhta, FromEvenStressIsTheOriginalCamClay) {
   for (int i = 0; i < 250; ++i) {
     point.triaxial(-0.005);
     const double pressure = pressure_of(point), eta = shear_of(point) / pressure;
-    const double volume = specific_volume - lambda * std::log(pressure / start) -
-                          (lambda - kappa) * rounded(eta) / m;
+    const double volume =
+        specific_volume - lambda * std::log(pressure / start) - (lambda - kappa) * rounded(eta) / m;
     ASSERT_NEAR(shear_of(point), 3.0 * (pressure - start), 1e-4 * start);
     ASSERT_NEAR(volume_of(point), volume, 1e-7);
   }
