@@ -28,9 +28,13 @@ struct CellBatch {
     return values;
   }
   void set(const Lanes<lanes>& values, std::vector<double>& array) const {
-    if (contiguous && live == lanes) return store<lanes>(values, array.data() + point[0]);
+    set(values, array.data(), 0);
+  }
+  /// The same in an array that starts with point `first`.
+  void set(const Lanes<lanes>& values, double* array, std::size_t first) const {
+    if (contiguous && live == lanes) return store<lanes>(values, array + (point[0] - first));
     for (int i = 0; i < live; ++i)
-      array[point[static_cast<std::size_t>(i)]] = values[static_cast<std::size_t>(i)];
+      array[point[static_cast<std::size_t>(i)] - first] = values[static_cast<std::size_t>(i)];
   }
 };
 

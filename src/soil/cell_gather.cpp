@@ -75,11 +75,11 @@ class CellGather {
  public:
   using Value = Lanes<point_lanes<D>>;
   CellGather(const Grid<D>& grid, const NodeField<NodeMotion, D>& nodes, const PointUpdate& update,
-             std::size_t first_point, SoilParticles<D>& points, PointMotion& motion)
+             PointRange range, SoilParticles<D>& points, PointMotion& motion)
       : grid_(grid),
         nodes_(nodes),
         update_(update),
-        first_point_(first_point),
+        range_(range),
         points_(points),
         motion_(motion),
         stride_{1, D == 3 ? grid.stride(1) : 0, grid.stride(D - 1)} {}
@@ -95,14 +95,19 @@ class CellGather {
     take_component<1>(batch, batches.per_spacing(), place, first, divergence, speed2);
     if constexpr (D == 3)
       take_component<2>(batch, batches.per_spacing(), place, first, divergence, speed2);
-    for (int i = 0; i < batch.live; ++i) {
-      const auto u = static_cast<std::size_t>(i);
-      if constexpr (wet) motion_.flux_divergence[batch.point[u] - first_point_] = divergence[u];
-      if (!(speed2[u] <= largest_))
-        largest_ = speed2[u] < 1e300 ? speed2[u] : std::numeric_limits<double>::infinity();
-    }
+    if constexpr (wet) batch.set(divergence, motion_.flux_divergence.data(), range_.first);
+    for (int i = batch.live; i < CellBatch<D>::lanes; ++i)
+      speed2[static_cast<std::size_t>(i)] = 0.0;
+    largest_ = speed2 > largest_ ? speed2 : largest_;
+    beyond_ = speed2 < 1e300 ? beyond_ : beyond_ + 1.0;
   }
-  double largest_speed() const { return std::sqrt(largest_); }
+  double largest_speed() const {
+    double largest = 0.0;
+    for (std::size_t i = 0; i < CellBatch<D>::lanes; ++i)
+      largest = std::max(largest,
+                         beyond_[i] > 0.0 ? std::numeric_limits<double>::infinity() : largest_[i]);
+    return std::sqrt(largest);
+  }
 
  private:
   template <int Component, int Axis>
@@ -173,22 +178,19 @@ class CellGather {
     const Value point2 = v * v, grid2 = sum.velocity * sum.velocity;
     speed2 += point2 > grid2 ? point2 : grid2;
     for (std::size_t j = 0; j < D; ++j) {
-      const Value gradient = update_.dt * sum.gradient[j];
-      for (int i = 0; i < batch.live; ++i) {
-        const auto u = static_cast<std::size_t>(i);
-        motion_.gradient[(batch.point[u] - first_point_) * D * D + d * D + j] = gradient[u];
-      }
+      double* row = motion_.gradient.data() + (d * D + j) * (range_.last - range_.first);
+      batch.set(update_.dt * sum.gradient[j], row, range_.first);
     }
   }
 
   const Grid<D>& grid_;
   const NodeField<NodeMotion, D>& nodes_;
   const PointUpdate& update_;
-  std::size_t first_point_;
+  PointRange range_;
   SoilParticles<D>& points_;
   PointMotion& motion_;
   std::array<std::ptrdiff_t, 3> stride_;
-  double largest_ = 0.0;
+  Value largest_{}, beyond_{};  ///< square of the speed; above zero: too large or not a number
 };
 
 }  // namespace
@@ -204,9 +206,9 @@ void gather_by_cell(const Grid<D>& grid, const NodeField<NodeMotion, D>& nodes,
     motion.largest_speed = std::max(motion.largest_speed, gather.largest_speed());
   };
   if (update.pore_water)
-    run(CellGather<D, K, affine, true>(grid, nodes, update, range.first, points, motion));
+    run(CellGather<D, K, affine, true>(grid, nodes, update, range, points, motion));
   else
-    run(CellGather<D, K, affine, false>(grid, nodes, update, range.first, points, motion));
+    run(CellGather<D, K, affine, false>(grid, nodes, update, range, points, motion));
 }
 
 // clang-format off

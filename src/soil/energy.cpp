@@ -10,7 +10,7 @@ double internal_work(const SoilParticles<D>& points, PointRange range, const Poi
   TensorValue work{};
   for_each_group(range, [&](const PointGroup& group) {
     const std::size_t k = group.first - range.first;
-    const MatrixLanes g = group.gradient<D>(motion.gradient.data() + k * D * D);
+    const MatrixLanes g = group.gradient<D>(motion.gradient.data(), range);
     const auto stress = [&](int c) { return group.get(points.stress[c]); };
     TensorValue density = stress(0) * g[0] + stress(2) * g[8] + stress(5) * (g[2] + g[6]);
     if constexpr (D == 3)

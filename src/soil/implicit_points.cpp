@@ -134,8 +134,11 @@ bool ImplicitPoints<D>::update_stress(std::size_t b, const std::vector<double>& 
     body.trial.volume[p] = start.volume[p] * std::max(j, 0.05);
   }
   if (!good) return false;
+  std::vector<double> by_component(gradient.size());
+  for (std::size_t p = 0; p < start.size(); ++p)
+    for (std::size_t c = 0; c < G; ++c) by_component[c * start.size() + p] = gradient[p * G + c];
   const StressResult result = mudlark::update_stress(
-      body.trial, gradient, *problem_->laws[b], problem_->options.bodies[b].strain,
+      body.trial, by_component, *problem_->laws[b], problem_->options.bodies[b].strain,
       {problem_->dt, problem_->time, problem_->grid.smallest_spacing()});
   if (result.failed > 0) return false;
   stress.resize(start.size());

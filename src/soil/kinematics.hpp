@@ -29,8 +29,8 @@ struct StressResult {
 };
 
 /// Gives points their stress after a step, and updates their state variables.
-/// Only the points of `range`; `gradient` starts with the first of them and holds D*D values per
-/// point: dt * dv_i/dx_j, row i. Expects volumes to be updated already.
+/// Only the points of `range`; `gradient` holds D*D arrays of as many values one after another, row
+/// by row: dt * dv_i/dx_j. Expects volumes to be updated already.
 ///   small:       sigma = law(sym(F) - I + eps_0)                        (reference configuration)
 ///   logarithmic: sigma = law(1/2 ln b_e)
 ///   hencky:      sigma = law(1/2 ln b_e) / J,  b_e <- f b_e f^T          (Simo 1992)

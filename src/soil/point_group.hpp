@@ -30,17 +30,15 @@ struct PointGroup {
     set(t.xx, q[0]), set(t.yy, q[1]), set(t.zz, q[2]);
     set(t.xy, q[3]), set(t.yz, q[4]), set(t.zx, q[5]);
   }
-  /// Velocity gradient of the step from D*D values per point, the group's first; in 2D rows and
-  /// columns x and z of the 3 x 3 matrix.
+  /// Velocity gradient of the step, component after component, each of all points of a range; in 2D
+  /// rows and columns x and z of the 3 x 3 matrix.
   template <int D>
-  MatrixLanes gradient(const double* values) const {
+  MatrixLanes gradient(const double* values, PointRange range) const {
     MatrixLanes g{};
+    values += first - range.first;
     for (std::size_t i = 0; i < D; ++i)
-      for (std::size_t j = 0; j < D; ++j) {
-        TensorValue& entry = g[D == 2 ? 6 * i + 2 * j : 3 * i + j];
-        for (std::size_t k = 0; k < tensor_lanes; ++k)
-          entry[k] = values[(k < live ? k : live - 1) * D * D + i * D + j];
-      }
+      for (std::size_t j = 0; j < D; ++j, values += range.last - range.first)
+        g[D == 2 ? 6 * i + 2 * j : 3 * i + j] = get(values);
     return g;
   }
 };

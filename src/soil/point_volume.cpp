@@ -11,7 +11,7 @@ std::size_t update_volumes(const PointMotion& motion, const BodyConstants& body,
   std::size_t without_pores = 0;
   for_each_group(range, [&](const PointGroup& group) {
     const std::size_t k = group.first - range.first;
-    MatrixLanes g = group.gradient<D>(motion.gradient.data() + k * D * D);
+    MatrixLanes g = group.gradient<D>(motion.gradient.data(), range);
     for (const std::size_t i : {0u, 4u, 8u}) g[i] += 1.0;
     TensorValue stretch;
     if constexpr (D == 2)

@@ -85,9 +85,8 @@ TensorLanes deform(SoilParticles<D>& points, const PointGroup& group, const Matr
 
 /// The strain that the law sees, and the stress that it starts from; `k` counts within the batch.
 template <int D>
-void prepare(SoilParticles<D>& points, const PointGroup& group, const double* gradient,
+void prepare(SoilParticles<D>& points, const PointGroup& group, MatrixLanes g,
              StrainMeasure measure, bool wants_rotation, std::size_t k, Batch& batch) {
-  MatrixLanes g = group.gradient<D>(gradient);
   TensorLanes strain, stress;
   if (is_rate(measure)) {
     const MatrixLanes rotation = step_rotation(g, strain);
@@ -201,8 +200,8 @@ StressResult update_stress(SoilParticles<D>& points, PointRange range,
     const std::size_t length = std::min(Batch::capacity, range.last - first);
     const PointRange part{first, first + length};
     for_each_group(part, [&](const PointGroup& group) {
-      prepare<D>(points, group, gradient.data() + (group.first - range.first) * D * D, measure,
-                 wants_rotation, group.first - first, batch);
+      prepare<D>(points, group, group.gradient<D>(gradient.data(), range), measure, wants_rotation,
+                 group.first - first, batch);
     });
     if (with_history) load_history(points, first, length, law, rate, batch);
     std::fill_n(batch.failed.begin(), length, static_cast<unsigned char>(0));

@@ -182,8 +182,8 @@ void gather(const Grid<D>& grid, const NodeField<NodeMotion, D>& nodes, const Po
         set_affine<D, K, Component>(splines, cells, grid, sum, p, update.pore_water, points);
       points.position[d][p] += update.dt * sum.velocity;
       for (int j = 0; j < D; ++j)
-        motion.gradient[(p - range.first) * D * D + static_cast<std::size_t>(d * D + j)] =
-            update.dt * sum.gradient[j];
+        motion.gradient[static_cast<std::size_t>(d * D + j) * (range.last - range.first) + p -
+                        range.first] = update.dt * sum.gradient[j];
       divergence += sum.flux_slope;
       speed2 += std::max(v * v, sum.velocity * sum.velocity);
     });

@@ -40,7 +40,8 @@ void points_to_grid(const Grid<D>& grid, const SoilParticles<D>& points, const B
 
 /// What the stress update needs of the grid's motion, per point.
 struct PointMotion {
-  std::vector<double> gradient;         ///< dt * dv_i/dx_j [-], D*D per point, row i
+  std::vector<double>
+      gradient;  ///< dt * dv_i/dx_j [-], component (i, j) of all points, then the next
   std::vector<double> flux_divergence;  ///< div(v_s + n (v_f - v_s)) [1/s]; only with pore water
   double largest_speed = 0.0;           ///< of the grains [m/s]; infinite when not a number
   std::size_t strays = 0;               ///< points met outside the cell that they were sorted into

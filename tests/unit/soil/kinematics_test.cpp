@@ -258,7 +258,7 @@ TEST(UpdateStress, GoesThroughAllPointsInBatches) {
   for (std::size_t p = 0; p < count; ++p) points.volume[p] = points.start_volume[p] = 1.0;
   initialise_material_state(points, law, StrainMeasure::logarithmic, 0.4);
   std::vector<double> gradient(count * 4, 0.0);
-  for (std::size_t p = 0; p < count; ++p) gradient[4 * p + 3] = 1e-4 * static_cast<double>(p);
+  for (std::size_t p = 0; p < count; ++p) gradient[3 * count + p] = 1e-4 * static_cast<double>(p);
   ASSERT_EQ(
       update_stress(points, gradient, law, StrainMeasure::logarithmic, {1.0, 0.0, 1.0}).failed, 0u);
   for (std::size_t p = 0; p < count; ++p) {

@@ -186,8 +186,8 @@ void expect_linear_motion_is_exact(Kernel kernel, Transfer transfer) {
       EXPECT_NEAR(points.position[i][p], before.position[i][p] + dt * v, 1e-13);
       for (int j = 0; j < D; ++j) {
         const double slope = velocity.slope[static_cast<std::size_t>(i)][j];
-        EXPECT_NEAR(motion.gradient[p * D * D + static_cast<std::size_t>(i * D + j)], dt * slope,
-                    1e-14);
+        EXPECT_NEAR(motion.gradient[static_cast<std::size_t>(i * D + j) * points.size() + p],
+                    dt * slope, 1e-14);
         if (transfer == Transfer::flip) continue;
         EXPECT_NEAR(points.affine[i * D + j][p], slope, 1e-12);
         if (kernel == Kernel::linear) continue;
@@ -291,7 +291,7 @@ void expect_divergence_is_that_of_the_grid() {
     EXPECT_NEAR(motion.flux_divergence[p], expected[p], 1e-12);
     double trace = 0.0;
     for (std::size_t a = 0; a < static_cast<std::size_t>(D); ++a)
-      trace += motion.gradient[p * D * D + a * D + a];
+      trace += motion.gradient[(a * D + a) * points.size() + p];
     EXPECT_NEAR(trace, strain[p], 1e-12);
   }
 }
