@@ -180,9 +180,8 @@ void SoilSolver<D>::gather_nodes() {
     points_to_grid(*grid_, points_[b], constants_[b], options_.kernel, options_.transfer,
                    facets ? SurfacePressure<D>{} : surface, sums_);
   if (exchanges_halos()) halo_.add_to_owners(as_doubles<NodeSums, D>(sums_), node_sums);
-  if (!wall_contact_.empty()) wall_contact_.measure(sums_);
-  fold_into_domain(*grid_, active_, sums_);
   add_body_force(*grid_, options_, time_, active_, sums_);
+  fold_into_domain(*grid_, active_, sums_);
   if (facets) {
     for_each(active_, [&](const Index<D>& cell) { occupied_[cell] = 0.0; });
     for (const auto& points : points_) mark_occupied(*grid_, points, occupied_);
@@ -268,7 +267,10 @@ void SoilSolver<D>::solve_nodes(double dt) {
       solve_face(sums[at], dt, volume, motion[at]);
     });
   }
-  if (!wall_contact_.empty()) wall_contact_.apply(dt, sums_, motion_);
+  if (!wall_contact_.empty())
+    wall_contact_.apply({dt, options_.transfer == Transfer::apic ? 0.0 : options_.flip_fraction,
+                         options_.mass_scaling},
+                        sums_, motion_);
   mirror_motion(*grid_, active_, motion_);
   for (int d = 0; d < D; ++d) {  // after the walls have come to rest
     const NodeSums* sums = sums_[static_cast<std::size_t>(d)].data();

@@ -16,29 +16,6 @@ IndexBox<D> row_at_wall(const Grid<D>& grid, IndexBox<D> box, int axis, int side
   return box;
 }
 
-/// Owned cells and what lies behind closed walls beside them.
-template <int D>
-IndexBox<D> with_mirrors(const Grid<D>& grid) {
-  IndexBox<D> box = grid.owned();
-  for_each_closed_wall(grid, [&](int axis, int side, Wall) {
-    (side == 0 ? box.lower : box.upper)[axis] += side == 0 ? -ghost_layers : ghost_layers;
-  });
-  return box;
-}
-
-/// Adds the images at the other closed walls.
-template <int D>
-void fold_beside(const Grid<D>& grid, const IndexBox<D>& box, int axis, CellField<D>& field) {
-  for_each_closed_wall(grid, [&](int other, int side, Wall kind) {
-    if (other == axis) return;
-    const double sign = parity(axis, other, kind);
-    for_each_mirror_pair(grid, box, other, side, false,
-                         [&](const Index<D>& behind, const Index<D>& before) {
-                           field[before] += sign * field[behind];
-                         });
-  });
-}
-
 }  // namespace
 
 template <int D>
@@ -47,50 +24,59 @@ WallContact<D>::WallContact(const Grid<D>& grid) : grid_(&grid), halo_(grid) {
     for (int side = 0; side < 2; ++side)
       if (grid.wall(axis, side) == Wall::friction)
         walls_.push_back({axis, side, grid.wall_friction(axis, side),
-                          CellField<D>(grid, "wall reaction", "N"),
-                          CellField<D>(grid, "wall reaction impulse", "kg m/s")});
+                          CellField<D>(grid, "impulse of the wall", "kg m/s")});
 }
 
-/// Images change what the domain sees by minus twice what points leave behind the wall, and the
-/// wall's own face is emptied: this is what the wall gives.
+/// Points near the wall own a share of the faces behind it. By the law of action and reaction what
+/// the wall gives them is the change of their momentum less the forces on them; in the domain the
+/// folded faces balance, and what is left is, behind the wall and with m, p, F the points' own sums
+/// there,  2 {m [f dv + (1-f) v] + (1-f) p + F dt - D dt u},  f the share of FLIP, v, dv the motion
+/// of the face in front, u the water's motion past its grains. On the wall's face, which does not
+/// move, it is half of that. A mirrored motion that merely goes on, as in soil that spreads and
+/// sinks, gives none: m v = -p.
 template <int D>
-void WallContact<D>::measure(const NodeField<NodeSums, D>& sums) {
+void WallContact<D>::measure(const Change& change, const NodeField<NodeSums, D>& sums,
+                             const NodeField<NodeMotion, D>& motion) {
   const Grid<D>& grid = *grid_;
+  const double flip = change.flip, rest = 1.0 - flip;
   for (Side& wall : walls_) {
-    wall.force.fill(0.0);
-    wall.momentum.fill(0.0);
+    wall.impulse.fill(0.0);
     if (grid.touches(wall.axis, wall.side)) {
-      const auto& normal = sums[static_cast<std::size_t>(wall.axis)];
+      const auto u = static_cast<std::size_t>(wall.axis);
       const int outwards = wall.side == 0 ? -1 : 1;
       const int depth = wall.side == 0 ? ghost_layers : ghost_layers - 1;
       const int face = wall.side == 0 ? 0 : grid.cells()[wall.axis];
-      const IndexBox<D> row = row_at_wall(grid, with_mirrors(grid), wall.axis, wall.side);
+      const IndexBox<D> row = row_at_wall(grid, grid.owned(), wall.axis, wall.side);
       for_each(row, [&](const Index<D>& cell) {
-        double force = 0.0, momentum = 0.0;
+        double given = 0.0;
         for (int layer = 0; layer <= depth; ++layer) {
-          Index<D> at = cell;
-          at[wall.axis] = face + outwards * layer;
-          const double share = layer == 0 ? 1.0 : 2.0;
-          const NodeSums& node = normal[at];
+          Index<D> behind = cell, before = cell;
+          behind[wall.axis] = face + outwards * layer;
+          before[wall.axis] = face - outwards * layer;
+          const NodeSums& own = sums[u][behind];
           // Grains under effective stress and buoyant weight: without the water's push.
-          force += share * (node.mixture_force - node.water_force);
-          momentum += share * node.grain_momentum;
+          double left = change.inertia * rest * own.grain_momentum +
+                        change.dt * (own.mixture_force - own.water_force);
+          if (layer > 0) {
+            const NodeMotion& image = motion[u][before];
+            left += change.inertia * own.grain_mass *
+                        (flip * image.grain_change + rest * image.grain_velocity) -
+                    change.dt * own.drag * (image.water_velocity - image.grain_velocity);
+          }
+          given += (layer == 0 ? 1.0 : 2.0) * left;
         }
-        wall.force[cell] = outwards * force;
-        wall.momentum[cell] = outwards * momentum;
+        wall.impulse[cell] = outwards * given;
       });
-      fold_beside(grid, row, wall.axis, wall.force);
-      fold_beside(grid, row, wall.axis, wall.momentum);
     }
-    const std::array<double*, 2> both{wall.force.data(), wall.momentum.data()};
-    halo_.exchange(both);
+    halo_.exchange(wall.impulse);
   }
 }
 
 template <int D>
-void WallContact<D>::apply(double dt, const NodeField<NodeSums, D>& sums,
-                           NodeField<NodeMotion, D>& motion) const {
+void WallContact<D>::apply(const Change& change, const NodeField<NodeSums, D>& sums,
+                           NodeField<NodeMotion, D>& motion) {
   const Grid<D>& grid = *grid_;
+  measure(change, sums, motion);
   for (const Side& wall : walls_) {
     if (!grid.touches(wall.axis, wall.side)) continue;
     for (int d = 0; d < D; ++d) {
@@ -99,11 +85,10 @@ void WallContact<D>::apply(double dt, const NodeField<NodeSums, D>& sums,
       const IndexBox<D> row = row_at_wall(grid, grid.owned_faces(d), wall.axis, wall.side);
       for_each(row, [&](const Index<D>& face) {
         NodeMotion& node = motion[u][face];
-        const double mass = sums[u][face].grain_mass;
+        const double mass = change.inertia * sums[u][face].grain_mass;
         if (mass <= 0.0) return;
         const Index<D> below = face.shifted(d, -1);
-        const double pressed = std::max(0.0, 0.5 * (dt * (wall.force[face] + wall.force[below]) +
-                                                    wall.momentum[face] + wall.momentum[below]));
+        const double pressed = std::max(0.0, 0.5 * (wall.impulse[face] + wall.impulse[below]));
         double speed2 = node.grain_velocity * node.grain_velocity;
         for (int other = 0; other < D; ++other) {  // the second component along the wall, in 3D
           if (other == d || other == wall.axis) continue;

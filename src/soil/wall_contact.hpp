@@ -17,18 +17,26 @@ class WallContact {
   explicit WallContact(const Grid<D>& grid);
 
   bool empty() const { return walls_.empty(); }
-  /// Reads the reaction off the sums of all points, before they are folded into the domain.
-  /// Collective.
-  void measure(const NodeField<NodeSums, D>& sums);
-  /// Takes the friction of a step dt [s] from the motion of the faces along the walls.
-  void apply(double dt, const NodeField<NodeSums, D>& sums, NodeField<NodeMotion, D>& motion) const;
+  /// How velocities change in a step.
+  struct Change {
+    double dt;       ///< [s]
+    double flip;     ///< share of FLIP in what points get [-]
+    double inertia;  ///< factor on the mass [-]
+  };
+  /// Takes the friction of a step from the motion of the faces along the walls. `sums` are folded
+  /// into the domain, and behind the walls still as points left them. Collective.
+  void apply(const Change& change, const NodeField<NodeSums, D>& sums,
+             NodeField<NodeMotion, D>& motion);
 
  private:
   struct Side {
     int axis, side;
     double coefficient;
-    CellField<D> force, momentum;  ///< of the reaction, in the cells at the wall [N], [kg m/s]
+    CellField<D> impulse;  ///< with which it presses, in the cells along it [kg m/s]
   };
+  void measure(const Change& change, const NodeField<NodeSums, D>& sums,
+               const NodeField<NodeMotion, D>& motion);
+
   const Grid<D>* grid_;
   Halo<D> halo_;
   std::vector<Side> walls_;

@@ -11,6 +11,7 @@ namespace mudlark::soil_runs {
 
 inline constexpr std::array<Kernel, 3> every_kernel{Kernel::linear, Kernel::quadratic,
                                                     Kernel::composite};
+inline constexpr std::array<Transfer, 2> every_transfer{Transfer::flip, Transfer::apic};
 
 /// Cubic cells of edge h from the origin; walls: 's' slip, 'n' no slip, 'o' open, 'p' periodic, per
 /// axis (x, z or x, y, z) lower and upper.
