@@ -211,5 +211,29 @@ TEST(Damping, TakesACundallShareOfTheUnbalancedForce) {
   for (const double v : soil.points(0).velocity[1]) EXPECT_NEAR(v, -1.0 - 0.8 * 9.81 * 0.1, 1e-10);
 }
 
+// Behind walls, too: there the mirrored weight is part of what the floor carries.
+TEST(BodyAcceleration, OfGravityActsAsGravity) {
+  std::array<std::vector<double>, 2> height, start;
+  for (const bool given : {false, true}) {
+    const Grid<2> grid = make_grid<2>({3, 10, 1}, 0.1, "ssso", given ? 0.0 : 10.0);
+    SoilOptions options = make_soil(2, {0, -1, 0}, {0.3, 1, 0.7}, true);
+    if (given)
+      options.body_acceleration = std::array<Varying, 3>{
+          Varying(0.0), Varying(0.0), Varying([](const Point3&, double) { return -10.0; }, "-10")};
+    SoilSolver<2> soil(grid, options);
+    soil.initialise();
+    double time = 0.0;
+    run(soil, time, 300, 2e-4);
+    height[given ? 1 : 0] = soil.points(0).position[1];
+    start[given ? 1 : 0] = soil.points(0).start[1];
+  }
+  double settled = 0.0;
+  for (std::size_t p = 0; p < height[0].size(); ++p) {
+    EXPECT_NEAR(height[1][p], height[0][p], 1e-13);
+    settled = std::max(settled, start[0][p] - height[0][p]);
+  }
+  EXPECT_GT(settled, 1e-4);
+}
+
 }  // namespace
 }  // namespace mudlark

@@ -73,8 +73,8 @@ double spreading_speed(Transfer transfer, bool wet, double friction, double time
   domain.wall_friction[D - 1][0] = friction;
   domain.gravity[D - 1] = -10.0;
   const Grid<D> grid(domain, MPI_COMM_WORLD);
-  SoilOptions options = soil_runs::make_soil(
-      D, {0.01, -1, -1}, {0.06, D == 2 ? 0.005 : 1.0, 0.005}, wet);
+  SoilOptions options =
+      soil_runs::make_soil(D, {0.01, -1, -1}, {0.06, D == 2 ? 0.005 : 1.0, 0.005}, wet);
   options.transfer = transfer;
   options.bodies[0].points_per_cell = D == 2 ? 4 : 8;
   options.bodies[0].initial_stress = GeostaticStress{};
@@ -119,8 +119,8 @@ TEST(WallFriction, SlowsSoilThatSpreadsByItsWeight) {
       std::printf("%s, %s: %.4f m/s in the plane, %.4f in space, exact %.4f\n",
                   transfer == Transfer::flip ? "flip" : "apic", is_wet ? "wet" : "dry", plane,
                   space, exact);
-      EXPECT_NEAR(plane, exact, 0.03 * std::abs(exact));
-      EXPECT_NEAR(space, exact, 0.03 * std::abs(exact));
+      EXPECT_NEAR(plane, exact, 0.05 * std::abs(exact));
+      EXPECT_NEAR(space, exact, 0.05 * std::abs(exact));
     }
   }
 }
