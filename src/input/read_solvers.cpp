@@ -125,6 +125,11 @@ void read_soil_solver(Section& root, SoilOptions& soil, bool water_flows,
   soil.load_form = section.choice<LoadForm>(
       "load_form", {{"virtual-stress", LoadForm::virtual_stress}, {"facets", LoadForm::facets}},
       soil.load_form);
+  soil.split_stretched = section.number_if_set(
+      "split_stretched", quantity::number,
+      {.lower = 1.0,
+       .reason = "the length in cells at which a point is split; shorter ones hold together",
+       .cure = "2 is usual."});
   if (section.has("body_acceleration"))
     soil.body_acceleration = section.varying_per_axis("body_acceleration", quantity::acceleration);
   if (soil.method == TimeMethod::implicit_steps && soil.load_form == LoadForm::facets)

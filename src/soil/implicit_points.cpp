@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "soil/point_stencil.hpp"
+#include "soil/splitting.hpp"
 
 namespace mudlark {
 namespace {
@@ -390,6 +391,8 @@ void ImplicitPoints<D>::finish(const ImplicitFields<D>& state, ImplicitOutcome& 
         body.trial.pore_pressure[p] = body.pressure[p];
       }
     });
+    if (body.trial.carries_extent)
+      follow_extent(body.gradient, PointRange{0, body.trial.size()}, body.trial);
     problem_->bodies[b] = body.trial;
   }
 }

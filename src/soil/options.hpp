@@ -100,6 +100,7 @@ struct SoilOptions {
   /// Error of an implicit step as a share of the largest displacement so far [-].
   double step_tolerance = 3e-4;
   LoadForm load_form = LoadForm::virtual_stress;
+  std::optional<double> split_stretched;  ///< extent at which a point is split [cells]
   /// Acceleration beside gravity, x y z [m/s2], of grains and pore water.
   std::optional<std::array<Varying, 3>> body_acceleration;
 };

@@ -39,6 +39,7 @@ template <int D>
 struct SoilParticles {
   bool carries_affine = false;        ///< set once, by the transfer in use
   bool carries_deformation = false;   ///< set once, by the strain measure in use
+  bool carries_extent = false;        ///< set once, where points that stretch are split
   std::vector<std::int64_t> id;       ///< unique in the whole case
   PointQuantity<D> position;          ///< [m]
   PointQuantity<D> start;             ///< position at time zero [m]
@@ -49,6 +50,9 @@ struct SoilParticles {
   PointQuantity<6> stress;   ///< effective Cauchy stress xx yy zz xy yz zx [Pa], tension positive
   PointQuantity<6> elastic;  ///< left Cauchy-Green tensor b_e [-] or initial elastic strain (small)
   PointQuantity<D * D> deformation;   ///< deformation gradient [-]; used by strain = small
+  /// F diag(l^2) F^T of the lattice's spacing l, xx zz zx or xx yy zz xy yz zx [m2]: the square of
+  /// the space that a point stands for.
+  PointQuantity<D*(D + 1) / 2> extent;
   std::vector<double> pore_pressure;  ///< [Pa], compression positive
   std::vector<double> grain_mass;     ///< [kg]
   std::vector<double> volume;         ///< bulk volume now [m^D]
@@ -89,6 +93,7 @@ struct SoilParticles {
     f("effective stress", "Pa", 6, stress.component.data());
     f("elastic state", "1", 6, elastic.component.data());
     if (carries_deformation) f("deformation gradient", "1", D * D, deformation.component.data());
+    if (carries_extent) f("extent", "m2", D * (D + 1) / 2, extent.component.data());
     f("pore pressure", "Pa", 1, &pore_pressure);
     f("grain mass", "kg", 1, &grain_mass);
     f("volume", "m^D", 1, &volume);

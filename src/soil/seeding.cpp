@@ -6,6 +6,7 @@
 
 #include "base/errors.hpp"
 #include "materials/registry.hpp"
+#include "soil/splitting.hpp"
 
 namespace mudlark {
 namespace {
@@ -82,10 +83,11 @@ double lateral_coefficient(const SoilBody& body, const GeostaticStress& geostati
 
 template <int D>
 SoilParticles<D> seed_points(const Grid<D>& grid, const SoilBody& body, std::size_t body_number,
-                             Transfer transfer) {
+                             Transfer transfer, bool with_extent) {
   SoilParticles<D> points;
   points.carries_affine = transfer == Transfer::apic;
   points.carries_deformation = body.strain == StrainMeasure::small;
+  points.carries_extent = with_extent;
   points.set_history(make_soil_model(body.law)->history_names());
   const int m = points_per_axis<D>(body);
   const double volume = grid.cell_volume() / body.points_per_cell;
@@ -108,6 +110,7 @@ SoilParticles<D> seed_points(const Grid<D>& grid, const SoilBody& body, std::siz
             body.initial_velocity[static_cast<std::size_t>(component)](to_point3(x), 0.0);
       }
       points.volume[p] = points.start_volume[p] = volume;
+      if (with_extent) set_extent(grid, m, p, points);
       points.grain_mass[p] = (1.0 - body.porosity) * body.grain_density * volume;
     });
   });
@@ -146,8 +149,10 @@ void set_initial_stress(const Grid<D>& grid, const SoilOptions& options,
   }
 }
 
-template SoilParticles<2> seed_points(const Grid<2>&, const SoilBody&, std::size_t, Transfer);
-template SoilParticles<3> seed_points(const Grid<3>&, const SoilBody&, std::size_t, Transfer);
+template SoilParticles<2> seed_points(const Grid<2>&, const SoilBody&, std::size_t, Transfer,
+                                      bool);
+template SoilParticles<3> seed_points(const Grid<3>&, const SoilBody&, std::size_t, Transfer,
+                                      bool);
 template void set_initial_stress(const Grid<2>&, const SoilOptions&,
                                  std::vector<SoilParticles<2>>&);
 template void set_initial_stress(const Grid<3>&, const SoilOptions&,

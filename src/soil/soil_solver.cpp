@@ -13,6 +13,7 @@
 #include "soil/point_volume.hpp"
 #include "soil/redistribute.hpp"
 #include "soil/seeding.hpp"
+#include "soil/splitting.hpp"
 #include "soil/stable_step.hpp"
 #include "soil/walls.hpp"
 
@@ -23,6 +24,8 @@ namespace {
 constexpr double longest_travel = 0.9;
 /// Points whose state is updated together; their arrays fit into the second-level cache.
 constexpr std::size_t points_per_block = 1024;
+/// No point is split in a cell that holds so many times the points of a full one.
+constexpr int most_points = 4;
 /// Points are sorted again when this share of them has left the cell that they were sorted into.
 constexpr double most_strays = 0.2;
 /// Faces lighter than this share of a full one carry no motion of their own.
@@ -82,7 +85,8 @@ template <int D>
 void SoilSolver<D>::initialise() {
   points_.clear();
   for (std::size_t b = 0; b < options_.bodies.size(); ++b)
-    points_.push_back(seed_points(*grid_, options_.bodies[b], b, options_.transfer));
+    points_.push_back(seed_points(*grid_, options_.bodies[b], b, options_.transfer,
+                                  options_.split_stretched.has_value()));
   set_initial_stress(*grid_, options_, points_);
   for (std::size_t b = 0; b < points_.size(); ++b)
     initialise_material_state(points_[b], *laws_[b], options_.bodies[b].strain,
@@ -102,6 +106,10 @@ template <int D>
 void SoilSolver<D>::redistribute() {
   for (std::size_t b = 0; b < points_.size(); ++b) try {
       removed_grain_mass_ += migrate(*grid_, points_[b]);
+      if (options_.split_stretched)
+        removed_grain_mass_ += split_stretched(
+            *grid_, {*options_.split_stretched, most_points * options_.bodies[b].points_per_cell},
+            points_[b]);
       sort_by_cell(*grid_, points_[b]);
     } catch (const DivergenceError& error) {  // on all ranks at once
       throw DivergenceError(
@@ -310,6 +318,7 @@ std::size_t SoilSolver<D>::update_block(std::size_t b, PointRange block, double 
       update_stress(points, block, point_motion_.gradient, *laws_[b], options_.bodies[b].strain,
                     {dt, time_, grid_->smallest_spacing()});
   recent_energy_.internal += 0.5 * (work + internal_work(points, block, point_motion_, dt, wet));
+  if (points.carries_extent) follow_extent(point_motion_.gradient, block, points);
   if (result.failed > 0 && failed_stress_.empty()) note_failed_stress(b, result);
   return without_pores + result.failed;
 }

@@ -1,0 +1,34 @@
+#pragma once
+/// Points that have been drawn out too far are split in two.
+#include <span>
+
+#include "grid/grid.hpp"
+#include "soil/particles.hpp"
+
+namespace mudlark {
+
+/// When points are split.
+struct Splitting {
+  double longest = 0.0;  ///< extent along a principal direction [cells]
+  int most = 0;          ///< no point of a cell that holds more points of its body than these
+};
+
+/// Gives point `p` the extent of the lattice that it stands on, `per_axis` points along each axis
+/// of a cell.
+template <int D>
+void set_extent(const Grid<D>& grid, int per_axis, std::size_t p, SoilParticles<D>& points);
+
+/// The extents of the points of `range` follow the motion of a step: A <- f A f^T, f = I + dt grad
+/// v. `gradient` starts with the first of them: dt * dv_i/dx_j, D*D values per point, row i.
+template <int D>
+void follow_extent(std::span<const double> gradient, PointRange range, SoilParticles<D>& points);
+
+/// Splits points that are too long into halves side by side along their longest direction, until
+/// none is left, and sends all points home. Halves share mass and volumes and copy all else: mass,
+/// momentum, angular momentum, kinetic energy, centre of mass and the integral of stress stay what
+/// they were, and so does the affine motion of APIC. Which points are split does not depend on
+/// their order or on the ranks. Returns the grain mass removed through open sides [kg]. Collective.
+template <int D>
+double split_stretched(const Grid<D>& grid, const Splitting& splitting, SoilParticles<D>& points);
+
+}  // namespace mudlark
