@@ -142,6 +142,8 @@ bool ImplicitPoints<D>::update_stress(std::size_t b, const std::vector<double>& 
       body.trial, by_component, *problem_->laws[b], problem_->options.bodies[b].strain,
       {problem_->dt, problem_->time, problem_->grid.smallest_spacing()});
   if (result.failed > 0) return false;
+  if (start.carries_extent)
+    follow_extent(by_component, PointRange{0, start.size()}, body.trial);
   stress.resize(start.size());
   if (cofactor) cofactor->resize(start.size());
   for (std::size_t p = 0; p < start.size(); ++p) {
@@ -391,8 +393,6 @@ void ImplicitPoints<D>::finish(const ImplicitFields<D>& state, ImplicitOutcome& 
         body.trial.pore_pressure[p] = body.pressure[p];
       }
     });
-    if (body.trial.carries_extent)
-      follow_extent(body.gradient, PointRange{0, body.trial.size()}, body.trial);
     problem_->bodies[b] = body.trial;
   }
 }

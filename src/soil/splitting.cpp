@@ -5,6 +5,7 @@
 
 #include "materials/invariants.hpp"
 #include "soil/mirror.hpp"
+#include "soil/point_group.hpp"
 #include "soil/redistribute.hpp"
 
 namespace mudlark {
@@ -146,33 +147,18 @@ void set_extent(const Grid<D>& grid, int per_axis, std::size_t p, SoilParticles<
 template <int D>
 void follow_extent(std::span<const double> gradient, PointRange range, SoilParticles<D>& points) {
   auto& e = points.extent;
-  const double* g = gradient.data();
-  for (std::size_t p = range.first; p < range.last; ++p, g += D * D) {
-    std::array<double, D * D> a, fa;
-    if constexpr (D == 2)
-      a = {e[0][p], e[2][p], e[2][p], e[1][p]};
-    else
-      a = {e[0][p], e[3][p], e[5][p], e[3][p], e[1][p], e[4][p], e[5][p], e[4][p], e[2][p]};
-    const auto f = [&](std::size_t i, std::size_t j) {
-      return g[i * D + j] + (i == j ? 1.0 : 0.0);
-    };
-    for (std::size_t i = 0; i < D; ++i)
-      for (std::size_t j = 0; j < D; ++j) {
-        double sum = 0.0;
-        for (std::size_t k = 0; k < D; ++k) sum += f(i, k) * a[k * D + j];
-        fa[i * D + j] = sum;
-      }
-    const auto entry = [&](std::size_t i, std::size_t j) {
-      double sum = 0.0;
-      for (std::size_t k = 0; k < D; ++k) sum += fa[i * D + k] * f(j, k);
-      return sum;
-    };
-    for (std::size_t i = 0; i < D; ++i) e[static_cast<int>(i)][p] = entry(i, i);
-    if constexpr (D == 2)
-      e[2][p] = entry(0, 1);
-    else
-      e[3][p] = entry(0, 1), e[4][p] = entry(1, 2), e[5][p] = entry(2, 0);
-  }
+  for_each_group(range, [&](const PointGroup& group) {
+    MatrixLanes f = group.gradient<D>(gradient.data(), range);
+    for (const std::size_t diagonal : {0u, 4u, 8u}) f[diagonal] += 1.0;
+    TensorLanes a;
+    if constexpr (D == 2) {
+      a.xx = group.get(e[0]), a.zz = group.get(e[1]), a.zx = group.get(e[2]);
+      a = congruent(a, f);
+      group.set(a.xx, e[0]), group.set(a.zz, e[1]), group.set(a.zx, e[2]);
+    } else {
+      group.set(congruent(group.get(e), f), e);
+    }
+  });
 }
 
 template <int D>

@@ -19,7 +19,7 @@ template <int D>
 void set_extent(const Grid<D>& grid, int per_axis, std::size_t p, SoilParticles<D>& points);
 
 /// The extents of the points of `range` follow the motion of a step: A <- f A f^T, f = I + dt grad
-/// v. `gradient` starts with the first of them: dt * dv_i/dx_j, D*D values per point, row i.
+/// v. `gradient` holds D*D arrays of as many values, dt * dv_i/dx_j row by row.
 template <int D>
 void follow_extent(std::span<const double> gradient, PointRange range, SoilParticles<D>& points);
 

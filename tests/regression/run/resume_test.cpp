@@ -75,6 +75,7 @@ TEST_F(Resume, AfterKillsGivesTheSameBitsOfACoupledRunIn3D) {
   kill_and_resume("dam_on_bed_3d", 2, 2, 3);
 }
 TEST_F(Resume, AfterKillsGivesTheSameBitsOfSoilAlone) { kill_and_resume("soil_3d", 1, 3, 4); }
+TEST_F(Resume, AfterKillsGivesTheSameBitsOfSplitPoints) { kill_and_resume("drawn", 2, 2, 6); }
 TEST_F(Resume, AfterKillsGivesTheSameBitsOfFlowAlone) { kill_and_resume("flow_3d", 2, 3, 5); }
 
 TEST_F(Resume, OnAnotherNumberOfRanksGivesTheSameNumbers) {
