@@ -1,5 +1,5 @@
-/// Whole steps of the soil engine at the sizes and with the laws that users compare codes by: time and
-/// bytes per point, and the share of what the memory would allow if each array were read and
+/// Whole steps of the soil engine at the sizes and with the laws that users compare codes by: time
+/// and bytes per point, and the share of what the memory would allow if each array were read and
 /// written once. Argument: cells along an edge; 2^D points per cell in three quarters of the box.
 #include <mpi.h>
 

@@ -142,8 +142,7 @@ bool ImplicitPoints<D>::update_stress(std::size_t b, const std::vector<double>& 
       body.trial, by_component, *problem_->laws[b], problem_->options.bodies[b].strain,
       {problem_->dt, problem_->time, problem_->grid.smallest_spacing()});
   if (result.failed > 0) return false;
-  if (start.carries_extent)
-    follow_extent(by_component, PointRange{0, start.size()}, body.trial);
+  if (start.carries_extent) follow_extent(by_component, PointRange{0, start.size()}, body.trial);
   stress.resize(start.size());
   if (cofactor) cofactor->resize(start.size());
   for (std::size_t p = 0; p < start.size(); ++p) {

@@ -49,7 +49,7 @@ struct SoilParticles {
   PointQuantity<D * D> water_affine;  ///< the same of the pore water
   PointQuantity<6> stress;   ///< effective Cauchy stress xx yy zz xy yz zx [Pa], tension positive
   PointQuantity<6> elastic;  ///< left Cauchy-Green tensor b_e [-] or initial elastic strain (small)
-  PointQuantity<D * D> deformation;   ///< deformation gradient [-]; used by strain = small
+  PointQuantity<D * D> deformation;  ///< deformation gradient [-]; used by strain = small
   /// F diag(l^2) F^T of the lattice's spacing l, xx zz zx or xx yy zz xy yz zx [m2]: the square of
   /// the space that a point stands for.
   PointQuantity<D*(D + 1) / 2> extent;

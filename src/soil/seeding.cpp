@@ -149,10 +149,8 @@ void set_initial_stress(const Grid<D>& grid, const SoilOptions& options,
   }
 }
 
-template SoilParticles<2> seed_points(const Grid<2>&, const SoilBody&, std::size_t, Transfer,
-                                      bool);
-template SoilParticles<3> seed_points(const Grid<3>&, const SoilBody&, std::size_t, Transfer,
-                                      bool);
+template SoilParticles<2> seed_points(const Grid<2>&, const SoilBody&, std::size_t, Transfer, bool);
+template SoilParticles<3> seed_points(const Grid<3>&, const SoilBody&, std::size_t, Transfer, bool);
 template void set_initial_stress(const Grid<2>&, const SoilOptions&,
                                  std::vector<SoilParticles<2>>&);
 template void set_initial_stress(const Grid<3>&, const SoilOptions&,

@@ -34,7 +34,7 @@ TEST_F(Ranks, GiveTheSameDamBreakOverASlopingBedIn3D) {
 
 TEST_F(Ranks, GiveTheSameThrownBlockOfSoilIn3D) { expect_the_same_on_all_ranks("soil_3d"); }
 
-TEST_F(Ranks, GiveTheSameDropWhosePointsAreSplit) { expect_the_same_on_all_ranks("drawn"); }
+TEST_F(Ranks, GiveTheSameLumpWhosePointsAreSplit) { expect_the_same_on_all_ranks("drawn"); }
 
 TEST_F(Ranks, GiveTheSameFlowAgainstAPorousBlockIn3D) { expect_the_same_on_all_ranks("flow_3d"); }
 

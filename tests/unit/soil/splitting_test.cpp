@@ -159,7 +159,7 @@ TEST(Splitting, FollowsTheExtentThroughShearAndTurns) {
   gradient[1] = -std::sin(angle), gradient[3] = std::sin(angle);
   follow_extent(gradient, {0, 1}, points);
   const double own = 0.25 * h * h;
-  EXPECT_NEAR(points.extent[0][0], own, 1e-15);                           // xx, was yy
+  EXPECT_NEAR(points.extent[0][0], own, 1e-15);                          // xx, was yy
   EXPECT_NEAR(points.extent[1][0], own * (1.0 + shear * shear), 1e-15);  // yy, was xx
   EXPECT_NEAR(points.extent[2][0], own, 1e-15);
   EXPECT_NEAR(points.extent[4][0], own * shear, 1e-15);  // yz, was zx

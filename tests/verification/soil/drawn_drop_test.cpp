@@ -73,10 +73,11 @@ Drawn draw(Transfer transfer, std::optional<double> split) {
   drawn.columns = static_cast<int>(0.8 * exact.a / h);
   for (int i = 0; i < drawn.columns; ++i) drawn.empty += column.contains(i) ? 0 : 1;
   drawn.points = points.size();
-  std::printf("%s, %s: %zu points, half axes %.3f and %.3f of the exact ones, %d of %d columns "
-              "empty\n",
-              transfer == Transfer::apic ? "apic" : "flip", split ? "split" : "not split",
-              drawn.points, drawn.length, drawn.height, drawn.empty, drawn.columns);
+  std::printf(
+      "%s, %s: %zu points, half axes %.3f and %.3f of the exact ones, %d of %d columns "
+      "empty\n",
+      transfer == Transfer::apic ? "apic" : "flip", split ? "split" : "not split", drawn.points,
+      drawn.length, drawn.height, drawn.empty, drawn.columns);
   return drawn;
 }
 
