@@ -129,7 +129,7 @@ void read_soil_solver(Section& root, SoilOptions& soil, bool water_flows,
       "split_stretched", quantity::number,
       {.lower = 1.0,
        .reason = "the length in cells at which a point is split; shorter ones hold together",
-       .cure = "2 is usual."});
+       .cure = "1 to 1.5 is usual."});
   if (section.has("body_acceleration"))
     soil.body_acceleration = section.varying_per_axis("body_acceleration", quantity::acceleration);
   if (soil.method == TimeMethod::implicit_steps && soil.load_form == LoadForm::facets)
