@@ -70,6 +70,7 @@ ExitCode check_command(const CheckArguments& arguments) {
                arguments.case_file);
     fmt::print("{}", options.resolved_toml);
     print_estimate(estimate);
+    for (const std::string& warning : estimate.warnings) fmt::print("# warning: {}\n", warning);
     return ExitCode::done;
   });
   if (code != ExitCode::done || !draw) return code;

@@ -1,7 +1,9 @@
 /// [[soil]]
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "input/sections.hpp"
 
@@ -68,24 +70,48 @@ void read_initial_stress(Section& soil, SoilBody& body) {
   }
 }
 
-void read_pore_water(Section& section, SoilBody& body, const WaterProperties& water) {
-  body.pore_water = section.choice<PoreWater>(
-      "pore_water", {{"two-phase", PoreWater::two_phase}, {"none", PoreWater::none}},
-      body.pore_water, {"unified"});
-  const bool wet = body.pore_water == PoreWater::two_phase;
-  if (wet)
-    section.choice<bool>("formulation", {{"u-w", true}}, true, {"u-p", "u-w-p"});
-  else
-    section.forbid("formulation", "pore_water = \"none\" has no pore water to formulate");
-  if (wet && !water.bulk_modulus) {
+/// How grains and pore water of all soils move: they share the grid.
+void read_formulation(Section& section, const WaterProperties& water, SoilOptions& soil) {
+  const Formulation formulation = section.choice<Formulation>(
+      "formulation",
+      {{"u-w", Formulation::u_w}, {"u-w-p", Formulation::u_w_p}, {"u-p", Formulation::u_p}},
+      Formulation::u_w);
+  const auto other = std::find_if(soil.bodies.begin(), soil.bodies.end(), [](const SoilBody& body) {
+    return body.pore_water == PoreWater::two_phase;
+  });
+  if (other != soil.bodies.end() && formulation != soil.formulation)
+    section.fail("formulation",
+                 fmt::format("all soils with pore water share one formulation, and soil \"{}\" has "
+                             "another",
+                             other->name),
+                 "Write the same into each [[soil]].");
+  soil.formulation = formulation;
+  if (formulation == Formulation::u_w_p) {
+    constexpr double incompressible = std::numeric_limits<double>::infinity();
+    soil.water_bulk_modulus = water.bulk_modulus.value_or(incompressible);
+  } else if (!water.bulk_modulus) {
     const std::string reason =
-        "formulation u-w needs compressible pore water: water.bulk_modulus is missing";
-    const std::string cure = "Write bulk_modulus under [water], for example \"2.15e9 Pa\".";
+        fmt::format("formulation {} needs compressible pore water: water.bulk_modulus is missing",
+                    formulation == Formulation::u_w ? "u-w" : "u-p");
+    const std::string cure =
+        "Write bulk_modulus under [water], for example \"2.15e9 Pa\", or formulation = \"u-w-p\".";
     if (section.has("pore_water"))
       section.fail("pore_water", reason, cure);
     else
       section.missing("pore_water", "it is \"two-phase\" then, and " + reason + ". " + cure);
   }
+}
+
+void read_pore_water(Section& section, SoilBody& body, const WaterProperties& water,
+                     SoilOptions& soil) {
+  body.pore_water = section.choice<PoreWater>(
+      "pore_water", {{"two-phase", PoreWater::two_phase}, {"none", PoreWater::none}},
+      body.pore_water, {"unified"});
+  const bool wet = body.pore_water == PoreWater::two_phase;
+  if (wet)
+    read_formulation(section, water, soil);
+  else
+    section.forbid("formulation", "pore_water = \"none\" has no pore water to formulate");
   body.intrinsic_permeability =
       read_permeability(section, water.density, water.viscosity, wet).value_or(0.0);
   body.permeability_law = section.choice<PermeabilityLaw>(
@@ -129,7 +155,7 @@ void read_soil(Section& root, CaseOptions& options, const WaterProperties& water
                         .reason = "the share of pores in the volume lies between 0 and 1",
                         .cure = "Sand has 0.35-0.45."});
     body.points_per_cell = read_points_per_cell(section);
-    read_pore_water(section, body, water);
+    read_pore_water(section, body, water, soil);
     read_initial_stress(section, body);
     body.initial_velocity = section.varying_per_axis("initial_velocity", quantity::velocity);
     read_law(section, body);

@@ -94,6 +94,18 @@ void read_statics(Section& section, SoilOptions& soil, bool water_flows) {
   soil.stop_when_static = read_rest(section);
 }
 
+/// What belongs to the formulations of pore water that are not u-w.
+void read_formulation_keys(Section& section, SoilOptions& soil) {
+  if (soil.formulation != Formulation::u_p) {
+    for (const std::string_view key : {"inertia_in_darcy", "loading_period"})
+      section.forbid(key, "it belongs to formulation = \"u-p\" under [[soil]]");
+    return;
+  }
+  soil.inertia_in_darcy = section.flag("inertia_in_darcy", soil.inertia_in_darcy);
+  soil.loading_period = section.number_if_set(
+      "loading_period", quantity::time, positive("the shortest period of what loads the soil"));
+}
+
 void read_soil_solver(Section& root, SoilOptions& soil, bool water_flows,
                       std::optional<double> courant) {
   Section section = root.table("soil_solver", Record::Form::block);
@@ -122,6 +134,7 @@ void read_soil_solver(Section& root, SoilOptions& soil, bool water_flows,
       "step_tolerance", quantity::number,
       share(1.0, "the error of an implicit step as a share of the largest displacement so far"),
       soil.step_tolerance);
+  read_formulation_keys(section, soil);
   soil.load_form = section.choice<LoadForm>(
       "load_form", {{"virtual-stress", LoadForm::virtual_stress}, {"facets", LoadForm::facets}},
       soil.load_form);
@@ -173,6 +186,13 @@ void read_solvers(Section& root, CaseOptions& options, std::optional<double> cou
           root.place("soil_solver"),
           "soil_solver.method = \"implicit\" has no inertia and cannot follow flowing water; "
           "leave out [[water.body]] or write method = \"explicit\"");
+    if (options.soil->method == TimeMethod::implicit_steps &&
+        options.soil->formulation != Formulation::u_w)
+      report.add(
+          root.place("soil_solver"),
+          "soil_solver.method = \"implicit\" finds pore pressure in its own way\n  (formulation "
+          "= \"u-w-p\" and \"u-p\" are explicit in the skeleton). Leave formulation out of "
+          "[[soil]], or write method = \"explicit\".");
   } else if (root.has("soil_solver"))
     report.add(root.place("soil_solver"), "[soil_solver] is not used: the case has no [[soil]]");
   if (options.flow)

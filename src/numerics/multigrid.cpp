@@ -36,17 +36,18 @@ struct Multigrid<D>::Hypre {
   HYPRE_StructVector residual = nullptr, correction = nullptr;
   HYPRE_StructSolver solver = nullptr;
   HYPRE_Int lower[D], upper[D];
+  bool empty;  // no cells on this rank
 
-  explicit Hypre(const Grid<D>& mesh) {
+  Hypre(const Grid<D>& mesh, const IndexBox<D>& box) : empty(box.empty()) {
     static const bool initialised =
         HYPRE_Init() == 0;  // once per process; harmless beside PETSc's own use
     if (!initialised) throw std::runtime_error("hypre failed to start");
     for (int a = 0; a < D; ++a) {
-      lower[a] = mesh.owned().lower[a];
-      upper[a] = mesh.owned().upper[a] - 1;
+      lower[a] = box.lower[a];
+      upper[a] = box.upper[a] - 1;
     }
     check(HYPRE_StructGridCreate(mesh.comm(), D, &grid), "make a grid");
-    check(HYPRE_StructGridSetExtents(grid, lower, upper), "make a grid");
+    if (!empty) check(HYPRE_StructGridSetExtents(grid, lower, upper), "make a grid");
     HYPRE_Int period[D];
     for (int a = 0; a < D; ++a) period[a] = closes_seam(mesh, a) ? mesh.cells()[a] : 0;
     check(HYPRE_StructGridSetPeriodic(grid, period), "make a grid");
@@ -79,10 +80,17 @@ struct Multigrid<D>::Hypre {
 };
 
 template <int D>
-Multigrid<D>::Multigrid(const Grid<D>& grid) : grid_(&grid), hypre_(std::make_unique<Hypre>(grid)) {
-  std::size_t count = 1;
-  for (int a = 0; a < D; ++a)
-    count *= static_cast<std::size_t>(grid.owned().upper[a] - grid.owned().lower[a]);
+Multigrid<D>::Multigrid(const Grid<D>& grid) : grid_(&grid) {
+  cover(grid.owned());
+}
+
+template <int D>
+void Multigrid<D>::cover(const IndexBox<D>& box) {
+  box_ = box;
+  hypre_ = std::make_unique<Hypre>(*grid_, box);
+  std::size_t count = box.empty() ? 0 : 1;
+  for (int a = 0; a < D && count > 0; ++a)
+    count *= static_cast<std::size_t>(box.upper[a] - box.lower[a]);
   buffer_.resize(count);
 }
 
@@ -95,12 +103,12 @@ void Multigrid<D>::build(const PressureSystem<D>& system) {
   Hypre& h = *hypre_;
   const double* diagonal = system.diagonal.data();
   double largest = 0.0;
-  for_each_offset(grid, grid.owned(),
+  for_each_offset(grid, box_,
                   [&](std::ptrdiff_t at) { largest = std::max(largest, diagonal[at]); });
   // Cells without an unknown become rows of their own, of the size of the others.
   const double alone = std::max(max_over_ranks(grid, largest), 1e-300);
   std::size_t k = 0;
-  for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) {
+  for_each_offset(grid, box_, [&](std::ptrdiff_t at) {
     buffer_[k++] = diagonal[at] > 0.0 ? diagonal[at] : alone;
   });
   for (HYPRE_Int entry = 0; entry <= D; ++entry) {
@@ -109,12 +117,13 @@ void Multigrid<D>::build(const PressureSystem<D>& system) {
       const bool seam = closes_seam(grid, axis);
       const double* coupling = system.coupling[axis].data();
       k = 0;
-      for_each(grid.owned(), [&](const Index<D>& cell) {
+      for_each(box_, [&](const Index<D>& cell) {
         buffer_[k++] = cell[axis] == 0 && !seam ? 0.0 : -coupling[grid.offset(cell)];
       });
     }
-    check(HYPRE_StructMatrixSetBoxValues(h.matrix, h.lower, h.upper, 1, &entry, buffer_.data()),
-          "fill a matrix");
+    if (!h.empty)
+      check(HYPRE_StructMatrixSetBoxValues(h.matrix, h.lower, h.upper, 1, &entry, buffer_.data()),
+            "fill a matrix");
   }
   check(HYPRE_StructMatrixAssemble(h.matrix), "assemble a matrix");
   if (h.solver) HYPRE_StructPFMGDestroy(h.solver);  // hypre has no other way to take a new matrix
@@ -136,17 +145,19 @@ void Multigrid<D>::apply(const CellField<D>& residual, CellField<D>& out) {
   Hypre& h = *hypre_;
   const double* r = residual.data();
   std::size_t k = 0;
-  for_each_offset(*grid_, grid_->owned(), [&](std::ptrdiff_t at) { buffer_[k++] = r[at]; });
-  check(HYPRE_StructVectorSetBoxValues(h.residual, h.lower, h.upper, buffer_.data()),
-        "fill a vector");
+  for_each_offset(*grid_, box_, [&](std::ptrdiff_t at) { buffer_[k++] = r[at]; });
+  if (!h.empty)
+    check(HYPRE_StructVectorSetBoxValues(h.residual, h.lower, h.upper, buffer_.data()),
+          "fill a vector");
   HYPRE_StructPFMGSolve(h.solver, h.matrix, h.residual,
                         h.correction);  // one cycle: its "not converged" is no error
   HYPRE_ClearAllErrors();
-  check(HYPRE_StructVectorGetBoxValues(h.correction, h.lower, h.upper, buffer_.data()),
-        "read a vector");
+  if (!h.empty)
+    check(HYPRE_StructVectorGetBoxValues(h.correction, h.lower, h.upper, buffer_.data()),
+          "read a vector");
   double* z = out.data();
   k = 0;
-  for_each_offset(*grid_, grid_->owned(), [&](std::ptrdiff_t at) { z[at] = buffer_[k++]; });
+  for_each_offset(*grid_, box_, [&](std::ptrdiff_t at) { z[at] = buffer_[k++]; });
 }
 
 template class Multigrid<2>;

@@ -16,8 +16,8 @@ constexpr double good_start = 1e-6;
 }  // namespace
 
 template <int D>
-void apply(const Grid<D>& grid, const PressureSystem<D>& system, const CellField<D>& p,
-           CellField<D>& out) {
+void apply(const Grid<D>& grid, const IndexBox<D>& box, const PressureSystem<D>& system,
+           const CellField<D>& p, CellField<D>& out) {
   const double* x = p.data();
   const double* diagonal = system.diagonal.data();
   double* y = out.data();
@@ -25,7 +25,7 @@ void apply(const Grid<D>& grid, const PressureSystem<D>& system, const CellField
   const double* c1 = system.coupling[1].data();
   const double* c2 = system.coupling[D - 1].data();
   const std::ptrdiff_t s1 = grid.stride(1), s2 = grid.stride(D - 1);
-  for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) {
+  for_each_offset(grid, box, [&](std::ptrdiff_t at) {
     double sum = diagonal[at] * x[at] - c0[at] * x[at - 1] - c0[at + 1] * x[at + 1] -
                  c1[at] * x[at - s1] - c1[at + s1] * x[at + s1];
     if constexpr (D == 3) sum -= c2[at] * x[at - s2] + c2[at + s2] * x[at + s2];
@@ -36,6 +36,7 @@ void apply(const Grid<D>& grid, const PressureSystem<D>& system, const CellField
 template <int D>
 PressureSolver<D>::PressureSolver(const Grid<D>& grid)
     : grid_(&grid),
+      box_(grid.owned()),
       ghosts_(grid),
       multigrid_(grid),
       residual_(grid, "residual", "1/s"),
@@ -44,11 +45,20 @@ PressureSolver<D>::PressureSolver(const Grid<D>& grid)
       image_(grid, "image", "1/s") {}
 
 template <int D>
+void PressureSolver<D>::cover(const IndexBox<D>& box) {
+  const bool moved = !(box == box_);
+  if (max_over_ranks(*grid_, moved ? 1.0 : 0.0) == 0.0) return;
+  box_ = box;
+  direction_.fill(0.0);  // its ghosts are read beyond the box
+  multigrid_.cover(box);
+}
+
+template <int D>
 double PressureSolver<D>::dot_product(const CellField<D>& left, const CellField<D>& right) const {
   double sum = 0.0;
   const double* a = left.data();
   const double* b = right.data();
-  for_each_offset(*grid_, grid_->owned(), [&](std::ptrdiff_t at) { sum += a[at] * b[at]; });
+  for_each_offset(*grid_, box_, [&](std::ptrdiff_t at) { sum += a[at] * b[at]; });
   return sum_over_ranks(*grid_, sum);
 }
 
@@ -57,7 +67,7 @@ double PressureSolver<D>::largest(const CellField<D>& field) const {
   double size = 0.0;
   bool finite = true;
   const double* a = field.data();
-  for_each_offset(*grid_, grid_->owned(), [&](std::ptrdiff_t at) {
+  for_each_offset(*grid_, box_, [&](std::ptrdiff_t at) {
     size = std::max(size, std::abs(a[at]));
     finite = finite && std::isfinite(a[at]);
   });
@@ -70,11 +80,11 @@ void PressureSolver<D>::remove_mean(const PressureSystem<D>& system, CellField<D
   double sum = 0.0, count = 0.0;
   double* value = field.data();
   const double* diagonal = system.diagonal.data();
-  for_each_offset(*grid_, grid_->owned(), [&](std::ptrdiff_t at) {
+  for_each_offset(*grid_, box_, [&](std::ptrdiff_t at) {
     if (diagonal[at] > 0.0) sum += value[at], count += 1.0;
   });
   const double mean = sum_over_ranks(*grid_, sum) / std::max(sum_over_ranks(*grid_, count), 1.0);
-  for_each_offset(*grid_, grid_->owned(), [&](std::ptrdiff_t at) {
+  for_each_offset(*grid_, box_, [&](std::ptrdiff_t at) {
     if (diagonal[at] > 0.0) value[at] -= mean;
   });
 }
@@ -82,12 +92,12 @@ void PressureSolver<D>::remove_mean(const PressureSystem<D>& system, CellField<D
 template <int D>
 void PressureSolver<D>::find_residual(const PressureSystem<D>& system, CellField<D>& p) {
   ghosts_.update(p);
-  apply(*grid_, system, p, image_);
+  apply(*grid_, box_, system, p, image_);
   const double* b = system.right_side.data();
   const double* image = image_.data();
   const double* diagonal = system.diagonal.data();
   double* r = residual_.data();
-  for_each_offset(*grid_, grid_->owned(),
+  for_each_offset(*grid_, box_,
                   [&](std::ptrdiff_t at) { r[at] = diagonal[at] > 0.0 ? b[at] - image[at] : 0.0; });
   if (system.constant_free) remove_mean(system, residual_);
 }
@@ -100,7 +110,7 @@ void PressureSolver<D>::precondition(const PressureSystem<D>& system, bool multi
     const double* r = residual_.data();
     const double* diagonal = system.diagonal.data();
     double* z = scaled_.data();
-    for_each_offset(*grid_, grid_->owned(), [&](std::ptrdiff_t at) {
+    for_each_offset(*grid_, box_, [&](std::ptrdiff_t at) {
       z[at] = diagonal[at] > 0.0 ? r[at] / diagonal[at] : 0.0;
     });
   }
@@ -122,18 +132,18 @@ bool PressureSolver<D>::iterate(const PressureSystem<D>& system, CellField<D>& p
     const double weight = iteration == 0 ? 0.0 : -dot_product(image_, scaled_) / energy;
     double* d = direction_.data();
     const double* z = scaled_.data();
-    for_each_offset(*grid_, grid_->owned(), [&](std::ptrdiff_t at) {
+    for_each_offset(*grid_, box_, [&](std::ptrdiff_t at) {
       d[at] = weight == 0.0 ? z[at] : z[at] + weight * d[at];
     });
     ghosts_.exchange(direction_);
-    apply(*grid_, system, direction_, image_);
+    apply(*grid_, box_, system, direction_, image_);
     energy = dot_product(direction_, image_);
     if (!(energy > 0.0)) break;
     const double step = dot_product(direction_, residual_) / energy;
     double* x = p.data();
     double* r = residual_.data();
     const double* image = image_.data();
-    for_each_offset(*grid_, grid_->owned(), [&](std::ptrdiff_t at) {
+    for_each_offset(*grid_, box_, [&](std::ptrdiff_t at) {
       x[at] += step * d[at];
       r[at] -= step * image[at];
     });
@@ -173,8 +183,10 @@ SolveReport PressureSolver<D>::solve(PressureSystem<D>& system, CellField<D>& p,
   return report;
 }
 
-template void apply(const Grid<2>&, const PressureSystem<2>&, const CellField<2>&, CellField<2>&);
-template void apply(const Grid<3>&, const PressureSystem<3>&, const CellField<3>&, CellField<3>&);
+template void apply(const Grid<2>&, const IndexBox<2>&, const PressureSystem<2>&,
+                    const CellField<2>&, CellField<2>&);
+template void apply(const Grid<3>&, const IndexBox<3>&, const PressureSystem<3>&,
+                    const CellField<3>&, CellField<3>&);
 template class PressureSolver<2>;
 template class PressureSolver<3>;
 

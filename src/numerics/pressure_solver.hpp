@@ -17,6 +17,11 @@ class PressureSolver {
  public:
   explicit PressureSolver(const Grid<D>& grid);
 
+  /// Restricts the work to these owned cells, which may be none on some ranks; at first all.
+  /// Couplings that lead out of all ranks' boxes must be zero, and p as well out there.
+  /// Cheap when nothing changes. Collective.
+  void cover(const IndexBox<D>& box);
+
   /// Solves A p = right side from the present p (warm start), until the largest residual is below
   /// `tolerance` [1/s]; one cycle at least, unless the start is a million times better. With
   /// `system.constant_free` the mean of the right side is taken out first (a closed box cannot
@@ -42,6 +47,7 @@ class PressureSolver {
   double largest(const CellField<D>& field) const;
 
   const Grid<D>* grid_;
+  IndexBox<D> box_;
   Ghosts<D> ghosts_;
   Multigrid<D> multigrid_;
   CellField<D> residual_, scaled_, direction_, image_;

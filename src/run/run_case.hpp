@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/errors.hpp"
 #include "run/options.hpp"
@@ -30,9 +31,10 @@ struct CaseEstimate {
   double flow_step = 0.0;  ///< first stable flow step [s], 0 without flow
   double soil_step = 0.0;  ///< first stable soil step [s], 0 without soil
   long long cells = 0;
-  long long points = 0;      ///< material points
-  double memory = 0.0;       ///< [bytes], all ranks together
-  double cpu_seconds = 0.0;  ///< rough cost of the whole run on one core
+  long long points = 0;               ///< material points
+  double memory = 0.0;                ///< [bytes], all ranks together
+  double cpu_seconds = 0.0;           ///< rough cost of the whole run on one core
+  std::vector<std::string> warnings;  ///< what the case asks of methods that cannot do it well
 };
 
 /// Builds the case at time zero, writes its initial fields into `results` when given (for a

@@ -53,6 +53,9 @@ class RunLog {
                             world.options().title, program_version(), program_commit(),
                             world.grid().ranks(), resumed ? "resumed" : "started",
                             world.clock().time(), world.options().time.end));
+    if (world.soil())
+      for (const std::string& warning : world.soil()->warnings())
+        results.log("warning: " + warning);
   }
   void step(double dt) {
     if (MPI_Wtime() - written_ < seconds_between_lines) return;

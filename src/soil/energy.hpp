@@ -35,9 +35,10 @@ struct SoilEnergy {
 /// Adds what one face does in a step dt [s]: force times new velocity is the work of all forces on
 /// grains and water, internal ones included (`external` takes it; internal work is added to it
 /// later); momentum that the forces gave and the face did not get went into drag and damping.
-/// `water_density` [kg/m3] gives the face its porosity, `inertia` [-] scales its mass.
+/// `water_density` [kg/m3] gives the face its porosity, `inertia` [-] scales its mass,
+/// `water_change` is the change of velocity [m/s] that the water's inertia answers to.
 inline void add_face_work(const NodeSums& sums, const NodeMotion& motion, double water_density,
-                          double inertia, double dt, SoilEnergy& energy) {
+                          double inertia, double water_change, double dt, SoilEnergy& energy) {
   const double porosity =
       sums.water_mass > 0.0 ? std::min(1.0, sums.water_mass / (water_density * sums.volume)) : 0.0;
   const double water_force = porosity * sums.water_force;
@@ -45,7 +46,7 @@ inline void add_face_work(const NodeSums& sums, const NodeMotion& motion, double
   const double work =
       dt * (grain_force * motion.grain_velocity + water_force * motion.water_velocity);
   const double gained = inertia * (sums.grain_mass * motion.grain_change * motion.grain_velocity +
-                                   sums.water_mass * motion.water_change * motion.water_velocity);
+                                   sums.water_mass * water_change * motion.water_velocity);
   const double slip = motion.water_velocity - motion.grain_velocity;
   const double drag = dt * sums.drag * slip * slip;
   energy.external += work;

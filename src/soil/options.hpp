@@ -74,6 +74,11 @@ struct EquilibriumStart {
   bool reset_displacements = true;
 };
 
+/// How grains and pore water move together (docs/methods/soil.md). u_w: velocities of both, pore
+/// pressure from compression of the water, explicit. u_w_p: the same velocities, pore pressure by
+/// an implicit projection. u_p: relative acceleration dropped, pore pressure implicit.
+enum class Formulation { u_w, u_w_p, u_p };
+
 enum class LoadForm { virtual_stress, facets };
 
 struct SoilOptions {
@@ -81,7 +86,12 @@ struct SoilOptions {
   std::vector<SurfaceLoad> loads;
   double water_density = 1000.0;       ///< pore water [kg/m3]
   double water_viscosity = 1.002e-3;   ///< [Pa s]
-  double water_bulk_modulus = 2.15e9;  ///< [Pa]
+  double water_bulk_modulus = 2.15e9;  ///< [Pa]; infinite: incompressible (u_w_p only)
+  Formulation formulation = Formulation::u_w;
+  bool inertia_in_darcy = false;  ///< u_p: keep rho_w a_s in Darcy's law
+  /// u_p: shortest period of what loads the soil [s], for the check of its range; nothing: the
+  /// period of the soil's first undrained mode.
+  std::optional<double> loading_period;
   Kernel kernel = Kernel::composite;
   Transfer transfer = Transfer::flip;
   double flip_fraction = 0.99;  ///< share of FLIP in the velocity update [-], the rest is PIC

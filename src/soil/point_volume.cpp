@@ -23,9 +23,11 @@ std::size_t update_volumes(const PointMotion& motion, const BodyConstants& body,
     group.set(volume, points.volume);
     if (body.water_density == 0.0) return;
     const TensorValue porosity = 1.0 - group.get(points.grain_mass) / (body.grain_density * volume);
-    const TensorValue divergence = group.get(motion.flux_divergence.data() + k);
-    group.set(group.get(points.pore_pressure) - dt * water_bulk_modulus / porosity * divergence,
-              points.pore_pressure);
+    const TensorValue rise =
+        motion.pressure_rise.empty()
+            ? -dt * water_bulk_modulus / porosity * group.get(motion.flux_divergence.data() + k)
+            : group.get(motion.pressure_rise.data() + k);
+    group.set(group.get(points.pore_pressure) + rise, points.pore_pressure);
     for (std::size_t i = 0; i < group.live; ++i)
       if (!(porosity[i] > 0.0)) ++without_pores;
   });

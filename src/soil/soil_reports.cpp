@@ -7,6 +7,7 @@
 #include "base/errors.hpp"
 #include "parallel/collective_error.hpp"
 #include "soil/exact_sum.hpp"
+#include "soil/regime.hpp"
 #include "soil/soil_solver.hpp"
 
 namespace mudlark {
@@ -69,6 +70,11 @@ void SoilSolver<D>::report_bad_point(double largest_speed, std::size_t failed) c
 }
 
 template <int D>
+std::vector<std::string> SoilSolver<D>::warnings() const {
+  return regime_warnings(*grid_, options_, points_, constants_, laws_);
+}
+
+template <int D>
 double SoilSolver<D>::largest_displacement() const {
   double largest = 0.0;
   for (const SoilParticles<D>& points : points_)
@@ -125,6 +131,8 @@ template void SoilSolver<2>::note_failed_stress(std::size_t, const StressResult&
 template void SoilSolver<3>::note_failed_stress(std::size_t, const StressResult&);
 template void SoilSolver<2>::report_bad_point(double, std::size_t) const;
 template void SoilSolver<3>::report_bad_point(double, std::size_t) const;
+template std::vector<std::string> SoilSolver<2>::warnings() const;
+template std::vector<std::string> SoilSolver<3>::warnings() const;
 template double SoilSolver<2>::largest_displacement() const;
 template double SoilSolver<3>::largest_displacement() const;
 template SoilSolver<2>::Totals SoilSolver<2>::totals() const;

@@ -9,8 +9,10 @@
 #include "base/errors.hpp"
 #include "materials/registry.hpp"
 #include "soil/body_force.hpp"
+#include "soil/face_balance.hpp"
 #include "soil/kinematics.hpp"
 #include "soil/point_volume.hpp"
+#include "soil/pore_cells.hpp"
 #include "soil/redistribute.hpp"
 #include "soil/seeding.hpp"
 #include "soil/splitting.hpp"
@@ -28,12 +30,6 @@ constexpr std::size_t points_per_block = 1024;
 constexpr int most_points = 4;
 /// Points are sorted again when this share of them has left the cell that they were sorted into.
 constexpr double most_strays = 0.2;
-/// Faces lighter than this share of a full one carry no motion of their own.
-constexpr double lightest_face = 1e-12;
-/// Above this share of a cell's volume a face counts as inside the soil, below it as the soil's
-/// rim.
-constexpr double rim_share = 0.9;
-
 template <class T, int D, std::size_t... A>
 NodeField<T, D> make_node_field(const Grid<D>& grid, const char* name, std::index_sequence<A...>) {
   return {((void)A, Field<T, AtFace, D>(grid, name, ""))...};
@@ -79,6 +75,7 @@ SoilSolver<D>::SoilSolver(const Grid<D>& grid, const SoilOptions& options)
       throw InputError(fmt::format("soil {}: law {} cannot be used with this strain measure",
                                    body.name, laws_.back()->name()));
   }
+  if (options.formulation != Formulation::u_w && two_phase()) projection_.emplace(grid, options_);
 }
 
 template <int D>
@@ -134,6 +131,7 @@ void SoilSolver<D>::redistribute() {
       active_.lower[a] = grid_->local().lower[a], active_.upper[a] = grid_->local().upper[a];
   }
   active_ = active_.intersected(grid_->local());
+  if (projection_) projection_->cover(active_);
   travelled_ = 0.0;
 }
 
@@ -187,6 +185,7 @@ void SoilSolver<D>::gather_nodes() {
   for (std::size_t b = 0; b < points_.size(); ++b)
     points_to_grid(*grid_, points_[b], constants_[b], options_.kernel, options_.transfer,
                    facets ? SurfacePressure<D>{} : surface, sums_);
+  if (projection_) projection_->measure(points_, constants_);
   if (exchanges_halos()) halo_.add_to_owners(as_doubles<NodeSums, D>(sums_), node_sums);
   add_body_force(*grid_, options_, time_, active_, sums_);
   fold_into_domain(*grid_, active_, sums_);
@@ -203,50 +202,16 @@ void SoilSolver<D>::gather_nodes() {
   }
 }
 
-/// Momentum of both phases on a face, drag implicit: NUMERICS A1,
-/// [M_s + dt b, -dt b; -dt b, M_l + dt b] [v_s; v_f]' = [M_s v_s + dt F_s; M_l v_f + dt F_f].
+/// Motion of a face under the forces of its points.
 template <int D>
 void SoilSolver<D>::solve_face(const NodeSums& sums, double dt, double face_volume,
                                NodeMotion& motion) const {
   motion = NodeMotion{};
-  if (sums.volume < lightest_face * face_volume) return;
-  const double porosity =
-      sums.water_mass > 0.0
-          ? std::min(1.0, sums.water_mass / (options_.water_density * sums.volume))
-          : 0.0;
-  const double water_force = porosity * sums.water_force;
-  const double grain_force = sums.mixture_force - water_force;
-  const double inertia = options_.mass_scaling;
-  const double ms = inertia * sums.grain_mass, ml = inertia * sums.water_mass;
-  const double grain_rhs = inertia * sums.grain_momentum + dt * grain_force;
-  const double water_rhs = inertia * sums.water_momentum + dt * water_force;
-  const bool locked = surface_.sealed() && sums.volume < rim_share * face_volume;
-  const double old_grain = sums.grain_momentum / sums.grain_mass,
-               old_water = ml > 0.0 ? sums.water_momentum / sums.water_mass : old_grain;
-  double vs, vl;
-  if (ml <= 0.0) {
-    vs = vl = grain_rhs / ms;
-  } else if (locked) {
-    vs = vl = (grain_rhs + water_rhs) / (ms + ml);
-  } else {
-    const double drag = dt * sums.drag, determinant = ms * ml + drag * (ms + ml);
-    vs = (grain_rhs * (ml + drag) + drag * water_rhs) / determinant;
-    vl = (water_rhs * (ms + drag) + drag * grain_rhs) / determinant;
-  }
-  // Local damping (Cundall 1987): a share of the unbalanced force against the motion, each phase by
-  // itself.
-  const auto damped = [](double coefficient, double now, double old) {
-    if (coefficient == 0.0) return now;
-    const double change = now - old;
-    return now - coefficient * std::copysign(std::abs(change), old);
-  };
-  vs = damped(options_.damping, vs, old_grain);
-  vl = ml > 0.0 ? damped(options_.water_damping.value_or(options_.damping), vl, old_water) : vs;
-  motion.grain_velocity = vs;
-  motion.grain_change = vs - old_grain;
-  motion.water_velocity = vl;
-  motion.water_change = vl - old_water;
-  motion.total_flux = vs + porosity * (vl - vs);
+  if (!carries_motion(sums, face_volume)) return;
+  const FaceBalance balance(sums, options_, dt, tied(surface_.sealed(), sums, face_volume));
+  const PhaseVelocity old = balance.old(), now = balance.moved();
+  motion = {now.grains, now.grains - old.grains, now.water, now.water - old.water,
+            balance.flux(now)};
 }
 
 /// Faces whose motion this rank computes itself: its own, and those behind open sides, which are no
@@ -265,6 +230,7 @@ IndexBox<D> SoilSolver<D>::solved_faces(int axis) const {
 
 template <int D>
 void SoilSolver<D>::solve_nodes(double dt) {
+  if (projection_) projection_->add_last_rise(dt, sums_);
   for (int d = 0; d < D; ++d) {
     const auto u = static_cast<std::size_t>(d);
     const double volume = grid_->cell_volume();
@@ -279,7 +245,10 @@ void SoilSolver<D>::solve_nodes(double dt) {
     wall_contact_.apply({dt, options_.transfer == Transfer::apic ? 0.0 : options_.flip_fraction,
                          options_.mass_scaling},
                         sums_, motion_);
+  if (projection_)
+    projection_->project(dt, time_, surface_.sealed(), sums_, motion_, recent_energy_);
   mirror_motion(*grid_, active_, motion_);
+  const bool moves_with_grains = options_.formulation == Formulation::u_p;
   for (int d = 0; d < D; ++d) {  // after the walls have come to rest
     const NodeSums* sums = sums_[static_cast<std::size_t>(d)].data();
     const NodeMotion* motion = motion_[static_cast<std::size_t>(d)].data();
@@ -287,8 +256,10 @@ void SoilSolver<D>::solve_nodes(double dt) {
     for_each(solved_faces(d), [&](const Index<D>& face) {
       const std::ptrdiff_t at = grid_->offset(face);
       mean[at] += dt / length_ * motion[at].grain_velocity;
-      add_face_work(sums[at], motion[at], options_.water_density, options_.mass_scaling, dt,
-                    recent_energy_);
+      const double water_change =
+          moves_with_grains ? motion[at].grain_change : motion[at].water_change;
+      add_face_work(sums[at], motion[at], options_.water_density, options_.mass_scaling,
+                    water_change, dt, recent_energy_);
     });
   }
   if (exchanges_halos()) halo_.exchange(as_doubles<NodeMotion, D>(motion_), node_motions);
@@ -308,6 +279,9 @@ template <int D>
 std::size_t SoilSolver<D>::update_block(std::size_t b, PointRange block, double dt) {
   auto& points = points_[b];
   const bool wet = constants_[b].water_density > 0.0;
+  if (wet && projection_)
+    sample_range(*grid_, points, block, options_.kernel, projection_->rise(),
+                 point_motion_.pressure_rise);
   grid_to_points(*grid_, motion_, options_.kernel, options_.transfer,
                  {options_.flip_fraction, dt, wet}, block, points, point_motion_);
   const double work = internal_work(points, block, point_motion_, dt, wet);

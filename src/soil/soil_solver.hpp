@@ -2,6 +2,7 @@
 /// The soil: material points on the shared grid, under given loads of the free water.
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "grid/halo.hpp"
@@ -12,6 +13,7 @@
 #include "soil/nodes.hpp"
 #include "soil/options.hpp"
 #include "soil/particles.hpp"
+#include "soil/pore_projection.hpp"
 #include "soil/statics.hpp"
 #include "soil/surface_load.hpp"
 #include "soil/transfer.hpp"
@@ -19,13 +21,17 @@
 
 namespace mudlark {
 
-/// Explicit two-phase (u-w: velocities of grains and pore water) or single-phase material point
-/// method with pointwise-implicit drag. NUMERICS A1, A4, A5, C2 (kernels).
+/// Two-phase (velocities of grains and pore water, drag implicit) or single-phase material point
+/// method, explicit in the effective stress. Pore pressure is explicit (u-w) or found by an
+/// implicit projection (u-w-p, u-p). NUMERICS A1, A2, A4, A5, C2 (kernels).
 template <int D>
 class SoilSolver {
  public:
   /// Throws InputError when the options do not fit together.
   SoilSolver(const Grid<D>& grid, const SoilOptions& options);
+
+  SoilSolver(const SoilSolver&) = delete;  // its parts point at each other
+  SoilSolver& operator=(const SoilSolver&) = delete;
 
   /// Seeds the points and sets their initial state. Collective.
   void initialise();
@@ -60,6 +66,8 @@ class SoilSolver {
   const BodyConstants& constants(std::size_t body) const { return constants_[body]; }
   const SoilModel& law(std::size_t body) const { return *laws_[body]; }
   bool two_phase() const;
+  /// What the formulation cannot do in these soils, in words; the same on all ranks. Collective.
+  std::vector<std::string> warnings() const;
   /// Cells around the soil, with the reach of the kernels; within this rank's local box.
   const IndexBox<D>& active() const { return active_; }
 
@@ -104,6 +112,7 @@ class SoilSolver {
     a.number("soil/removed grain mass", removed_grain_mass_);
     a.number("soil/time", time_);
     a.number("soil/next implicit step", next_step_);
+    if (projection_) projection_->archive(a);
   }
 
  private:
@@ -129,6 +138,7 @@ class SoilSolver {
   std::vector<std::unique_ptr<SoilModel>> laws_;
   SurfaceLoads<D> surface_;
   WallContact<D> wall_contact_;
+  std::optional<PoreProjection<D>> projection_;  ///< where pore pressure is found implicitly
   NodeField<NodeSums, D> sums_;
   NodeField<NodeMotion, D> motion_;
   CellField<D> occupied_;

@@ -23,25 +23,21 @@ double fastest_wave_squared(double modulus, double porosity, double grain_densit
   return 0.5 * (a + d + std::sqrt((a - d) * (a - d) + 4.0 * bc));
 }
 
-/// Stiffest state of all points [Pa].
-template <int D>
-double largest_wave_modulus(const SoilParticles<D>& points, const SoilModel& law) {
-  constexpr std::size_t capacity = 128;
-  const std::size_t variables = points.history.size();
-  std::vector<SymTensor> stress(capacity);
-  std::vector<double> history(capacity * variables);
-  double largest = 0.0;
-  for (std::size_t first = 0; first < points.size(); first += capacity) {
-    const std::size_t length = std::min(capacity, points.size() - first);
-    for (std::size_t k = 0; k < length; ++k) {
-      stress[k] = get_tensor(points.stress, first + k);
-      for (std::size_t h = 0; h < variables; ++h)
-        history[k * variables + h] = points.history[h][first + k];
-    }
-    largest = std::max(
-        largest, law.wave_modulus({stress.data(), length}, {history.data(), length * variables}));
+/// Square of the wave that bounds the step [m2/s2]. With implicit pore pressure it is that of the
+/// drained skeleton: in u-w-p water may stay behind, in u-p it moves along.
+double wave_squared(const SoilOptions& options, const BodyConstants& body, double modulus,
+                    double porosity) {
+  const double grains = (1.0 - porosity) * body.grain_density;
+  switch (options.formulation) {
+    case Formulation::u_w_p:
+      return modulus / grains;
+    case Formulation::u_p:
+      return modulus / (grains + porosity * body.water_density);
+    case Formulation::u_w:
+      break;
   }
-  return largest;
+  return fastest_wave_squared(modulus, porosity, body.grain_density, body.water_density,
+                              options.water_bulk_modulus);
 }
 
 /// Speed [m/s] that takes the step of an undamped wave down to that of a damped one: a mode of
@@ -98,6 +94,26 @@ std::vector<std::array<double, 4>> step_bounds(
 }  // namespace
 
 template <int D>
+double largest_wave_modulus(const SoilParticles<D>& points, const SoilModel& law) {
+  constexpr std::size_t capacity = 128;
+  const std::size_t variables = points.history.size();
+  std::vector<SymTensor> stress(capacity);
+  std::vector<double> history(capacity * variables);
+  double largest = 0.0;
+  for (std::size_t first = 0; first < points.size(); first += capacity) {
+    const std::size_t length = std::min(capacity, points.size() - first);
+    for (std::size_t k = 0; k < length; ++k) {
+      stress[k] = get_tensor(points.stress, first + k);
+      for (std::size_t h = 0; h < variables; ++h)
+        history[k * variables + h] = points.history[h][first + k];
+    }
+    largest = std::max(
+        largest, law.wave_modulus({stress.data(), length}, {history.data(), length * variables}));
+  }
+  return largest;
+}
+
+template <int D>
 double stable_step(const Grid<D>& grid, const SoilOptions& options,
                    const std::vector<SoilParticles<D>>& bodies,
                    const std::vector<BodyConstants>& constants,
@@ -118,9 +134,7 @@ double stable_step(const Grid<D>& grid, const SoilOptions& options,
                                : (1.0 - std::log(stretch)) / stretch;
     const double modulus = bounds[b][3] * stiffer;
     const double n = std::clamp(-bounds[b][0], 0.01, 0.99);
-    const double wave2 = fastest_wave_squared(modulus, n, body.grain_density, body.water_density,
-                                              options.water_bulk_modulus) /
-                         options.mass_scaling;
+    const double wave2 = wave_squared(options, body, modulus, n) / options.mass_scaling;
     const double viscosity =
         laws[b]->wave_viscosity() / (options.mass_scaling * (1.0 - n) * body.grain_density);
     const double wave = damped_wave(std::sqrt(wave2), viscosity, limit * grid.smallest_spacing());
@@ -139,5 +153,8 @@ template double stable_step(const Grid<2>&, const SoilOptions&,
 template double stable_step(const Grid<3>&, const SoilOptions&,
                             const std::vector<SoilParticles<3>>&, const std::vector<BodyConstants>&,
                             const std::vector<std::unique_ptr<SoilModel>>&);
+
+template double largest_wave_modulus(const SoilParticles<2>&, const SoilModel&);
+template double largest_wave_modulus(const SoilParticles<3>&, const SoilModel&);
 
 }  // namespace mudlark

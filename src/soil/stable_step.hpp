@@ -19,4 +19,8 @@ double stable_step(const Grid<D>& grid, const SoilOptions& options,
                    const std::vector<BodyConstants>& constants,
                    const std::vector<std::unique_ptr<SoilModel>>& laws);
 
+/// Constrained tangent modulus of the stiffest of this rank's points [Pa].
+template <int D>
+double largest_wave_modulus(const SoilParticles<D>& points, const SoilModel& law);
+
 }  // namespace mudlark

@@ -43,8 +43,10 @@ struct PointMotion {
   std::vector<double>
       gradient;  ///< dt * dv_i/dx_j [-], component (i, j) of all points, then the next
   std::vector<double> flux_divergence;  ///< div(v_s + n (v_f - v_s)) [1/s]; only with pore water
-  double largest_speed = 0.0;           ///< of the grains [m/s]; infinite when not a number
-  std::size_t strays = 0;               ///< points met outside the cell that they were sorted into
+  /// Rise of pore pressure where a projection found it [Pa]; empty: it follows from the divergence.
+  std::vector<double> pressure_rise;
+  double largest_speed = 0.0;  ///< of the grains [m/s]; infinite when not a number
+  std::size_t strays = 0;      ///< points met outside the cell that they were sorted into
 };
 
 /// How points follow the grid.
