@@ -51,6 +51,7 @@ void PressureSolver<D>::cover(const IndexBox<D>& box) {
   box_ = box;
   direction_.fill(0.0);  // its ghosts are read beyond the box
   multigrid_.cover(box);
+  built_ = false;
 }
 
 template <int D>
@@ -155,19 +156,22 @@ bool PressureSolver<D>::iterate(const PressureSystem<D>& system, CellField<D>& p
 }
 
 template <int D>
-SolveReport PressureSolver<D>::solve(PressureSystem<D>& system, CellField<D>& p, double tolerance) {
+SolveReport PressureSolver<D>::solve(PressureSystem<D>& system, CellField<D>& p, double tolerance,
+                                     Hierarchy hierarchy) {
   SolveReport report;
   if (system.constant_free) remove_mean(system, system.right_side);
-  bool built = false;
+  bool current = false;
   // The recursive residual drifts from the true one by round-off: restart from the true one until
   // both agree.
   for (int restart = 0; restart < 4 && !report.converged; ++restart) {
     find_residual(system, p);
     report.residual = largest(residual_);
-    report.converged = report.residual <= (built ? tolerance : good_start * tolerance);
+    report.converged = report.residual <= (restart > 0 ? tolerance : good_start * tolerance);
     if (report.converged || !std::isfinite(report.residual)) break;
-    if (!built) multigrid_.build(system);
-    built = true;
+    if (!current && (restart > 0 || !built_ || hierarchy == Hierarchy::fresh)) {
+      multigrid_.build(system);
+      current = built_ = true;
+    }
     report.plain = restart == 3;
     if (report.plain)
       iterate(system, p, tolerance, plain_limit, false, report);

@@ -12,6 +12,9 @@ struct SolveReport {
   bool plain = false;  ///< multigrid stalled and diagonal scaling took over
 };
 
+/// Multigrid built for the matrix at hand, or kept from an earlier one that was much the same.
+enum class Hierarchy { fresh, kept };
+
 template <int D>
 class PressureSolver {
  public:
@@ -27,8 +30,10 @@ class PressureSolver {
   /// `system.constant_free` the mean of the right side is taken out first (a closed box cannot
   /// change its volume) and p keeps its mean. Falls back to diagonal scaling where multigrid
   /// stalls; the caller decides what a report without convergence means. Leaves the ghosts of p
-  /// valid.
-  SolveReport solve(PressureSystem<D>& system, CellField<D>& p, double tolerance);
+  /// valid. A kept hierarchy saves its construction, costs more iterations the more the matrix
+  /// changes, and is built anew where it does not lead to the tolerance.
+  SolveReport solve(PressureSystem<D>& system, CellField<D>& p, double tolerance,
+                    Hierarchy hierarchy = Hierarchy::fresh);
 
   /// Largest right side of all ranks, its mean taken out where pressure is free by a constant
   /// [1/s].
@@ -50,6 +55,7 @@ class PressureSolver {
   IndexBox<D> box_;
   Ghosts<D> ghosts_;
   Multigrid<D> multigrid_;
+  bool built_ = false;  ///< is there a hierarchy?
   CellField<D> residual_, scaled_, direction_, image_;
 };
 

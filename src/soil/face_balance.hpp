@@ -68,9 +68,9 @@ class FaceBalance {
     PhaseVelocity now = solve(options_.mass_scaling * sums_.grain_momentum + dt_ * grain_force,
                               options_.mass_scaling * sums_.water_momentum + dt_ * water_force);
     now.grains = damped(options_.damping, now.grains, before.grains);
-    now.water = dry_ ? now.grains
-                     : damped(options_.water_damping.value_or(options_.damping), now.water,
-                              before.water);
+    now.water =
+        dry_ ? now.grains
+             : damped(options_.water_damping.value_or(options_.damping), now.water, before.water);
     return now;
   }
   /// Change of velocity per impulse of pore pressure on the whole face [m/s per N s].

@@ -35,9 +35,8 @@ void sample_range(const Grid<D>& grid, const SoilParticles<D>& points, PointRang
       const PointSplines<D, K> splines(in_cells(grid, per_spacing, points.position_of(p)));
       double sum = 0.0;
       splines.template for_each_node<-1>(
-          grid, per_spacing, [&](std::ptrdiff_t at, double w, const Vec<D>&, const Vec<D>&) {
-            sum += w * cells[at];
-          });
+          grid, per_spacing,
+          [&](std::ptrdiff_t at, double w, const Vec<D>&, const Vec<D>&) { sum += w * cells[at]; });
       values[p - range.first] = sum;
     }
   });

@@ -20,6 +20,8 @@ constexpr double least_filling = 1e-4;
 /// Residual that the solver leaves, as a share of the largest right side. What it leaves is lost
 /// volume, step by step.
 constexpr double tolerance = 1e-10;
+/// Multigrid is built anew when it takes so many iterations more than at first.
+constexpr int more_iterations = 4;
 /// A residual above this share is no solution.
 constexpr double largest_residual = 1e-6;
 
@@ -58,6 +60,7 @@ void PoreProjection<D>::cover(const IndexBox<D>& active) {
   active_ = active;
   box_ = active.intersected(grid_->owned());
   solver_.cover(box_);
+  hierarchy_ = Hierarchy::fresh;  // so that a resumed run takes the same steps
   if (centred_) ghosts_.update(last_rate_);
 }
 
@@ -178,7 +181,10 @@ void PoreProjection<D>::solve(double dt, double time) {
   const double largest = solver_.largest_right_side(system_);
   if (!std::isfinite(largest)) report_failure(time);
   if (largest > 0.0) {
-    const SolveReport report = solver_.solve(system_, pull_, tolerance * largest);
+    const SolveReport report = solver_.solve(system_, pull_, tolerance * largest, hierarchy_);
+    if (hierarchy_ == Hierarchy::fresh) usual_iterations_ = report.iterations;
+    hierarchy_ = report.iterations > usual_iterations_ + more_iterations ? Hierarchy::fresh
+                                                                         : Hierarchy::kept;
     if (!report.converged && !(report.residual <= largest_residual * largest)) report_failure(time);
   } else {
     ghosts_.update(pull_);
@@ -218,8 +224,8 @@ void PoreProjection<D>::project(double dt, double time, bool sealed, NodeField<N
       node.mixture_force += on_mixture;
       node.water_force += force;
       if (centred_) on_mixture += share * dt * volume * slope(last_rate_, d, face);
-      energy.external -=
-          dt * (on_mixture * moved.grain_velocity + force * (moved.total_flux - moved.grain_velocity));
+      energy.external -= dt * (on_mixture * moved.grain_velocity +
+                               force * (moved.total_flux - moved.grain_velocity));
     });
   keep_rise(dt);
 }

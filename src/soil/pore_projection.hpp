@@ -1,5 +1,6 @@
 #pragma once
-/// Pore pressure by an implicit projection: formulations u-w-p and u-p (docs/methods/projection.md).
+/// Pore pressure by an implicit projection: formulations u-w-p and u-p
+/// (docs/methods/projection.md).
 #include "grid/halo.hpp"
 #include "numerics/pressure_solver.hpp"
 #include "soil/energy.hpp"
@@ -65,6 +66,8 @@ class PoreProjection {
   FaceVector<D> flux_;      ///< [m/s]
   PressureSystem<D> system_;
   PressureSolver<D> solver_;
+  Hierarchy hierarchy_ = Hierarchy::fresh;
+  int usual_iterations_ = 0;  ///< of the solve that the hierarchy was built for
 };
 
 extern template class PoreProjection<2>;

@@ -18,7 +18,8 @@ constexpr double pi = std::numbers::pi;
 template <int D>
 double height_of(const Grid<D>& grid, const SoilParticles<D>& points) {
   double top = -HUGE_VAL, bottom = HUGE_VAL;
-  for (const double z : points.position[D - 1]) top = std::max(top, z), bottom = std::min(bottom, z);
+  for (const double z : points.position[D - 1])
+    top = std::max(top, z), bottom = std::min(bottom, z);
   top = max_over_ranks(grid, top);
   bottom = min_over_ranks(grid, bottom);
   return top >= bottom ? std::max(top - bottom, grid.spacing()[D - 1]) : 0.0;
@@ -29,7 +30,8 @@ std::string range_warning(const std::string& name, const SaturatedLayer& layer, 
   return fmt::format(
       "soil {}: formulation u-p leaves out the acceleration of the pore water against the grains, "
       "which matters here: Pi1 = {:.3g}, Pi2 = {:.3g}, Pi1 Pi2 = k omega rho/(g rho_w) = {:.3g} "
-      "for loads of period {:.3g} s over a height of {:.3g} m (it should be below {:g}; Zienkiewicz "
+      "for loads of period {:.3g} s over a height of {:.3g} m (it should be below {:g}; "
+      "Zienkiewicz "
       "et al. 1980). Take formulation \"u-w-p\" or \"u-w\"; or, where loads are slower, give "
       "soil_solver.loading_period.",
       name, numbers.first, numbers.second, numbers.first * numbers.second, 2.0 * pi / frequency,
@@ -40,7 +42,8 @@ std::string growth_warning(const std::string& name, const SaturatedLayer& layer,
   const double longest = u_p_growth(layer, 0.5 * pi / layer.height, true);
   const double shortest = u_p_growth(layer, 2.0 / spacing, true);
   return fmt::format(
-      "soil {}: formulation u-p with inertia_in_darcy = true is unstable in this soil, whatever its "
+      "soil {}: formulation u-p with inertia_in_darcy = true is unstable in this soil, whatever "
+      "its "
       "permeability: (K_w/n)(rho - rho_w) = {:.3g} Pa kg/m3 must exceed rho_w M = {:.3g}. Waves "
       "grow at {:.3g} 1/s (four times the height of the soil) to {:.3g} 1/s (the shortest of the "
       "grid). Leave inertia_in_darcy out, or take formulation \"u-w-p\" or \"u-w\".",

@@ -13,17 +13,15 @@ namespace mudlark {
 
 /// A saturated elastic layer as linear theory sees it.
 struct SaturatedLayer {
-  double modulus;              ///< M, constrained, of the skeleton [Pa]
-  double porosity;             ///< n [-]
-  double grain_density;        ///< [kg/m3]
-  double water_density;        ///< [kg/m3]
-  double water_bulk_modulus;   ///< K_w [Pa]
-  double mobility;             ///< kappa/mu [m2/(Pa s)]
-  double height;               ///< L [m]
+  double modulus;             ///< M, constrained, of the skeleton [Pa]
+  double porosity;            ///< n [-]
+  double grain_density;       ///< [kg/m3]
+  double water_density;       ///< [kg/m3]
+  double water_bulk_modulus;  ///< K_w [Pa]
+  double mobility;            ///< kappa/mu [m2/(Pa s)]
+  double height;              ///< L [m]
 
-  double density() const {
-    return (1.0 - porosity) * grain_density + porosity * water_density;
-  }
+  double density() const { return (1.0 - porosity) * grain_density + porosity * water_density; }
   double stiffness() const { return water_bulk_modulus / porosity; }  ///< Q = K_w/n [Pa]
   /// V_c = sqrt((M + Q)/rho), the undrained wave [m/s].
   double undrained_wave() const;

@@ -71,6 +71,24 @@ TEST_F(Endings, ARunThatWaitsForRestIsTheSameInTwoParts) {
   EXPECT_EQ(whole.rows, parts.rows);
 }
 
+TEST_F(Endings, ARunWithProjectedPorePressureIsTheSameInTwoParts) {
+  for (const std::string formulation : {"u-w-p", "u-p"}) {
+    const auto with = [&](std::vector<std::string> more) {
+      const std::vector<std::string> wet{
+          "--set", "soil.0.pore_water=two-phase", "soil.0.hydraulic_conductivity=1e-3",
+          "water.bulk_modulus=2e8", "soil.0.formulation=" + formulation};
+      more.insert(more.end(), wet.begin(), wet.end());
+      return more;
+    };
+    ASSERT_EQ(run("soil_3d", 2, "whole", with({})).code, 0);
+    ASSERT_EQ(run("soil_3d", 2, "parts", with({"--until", "0.03"})).code, 0);
+    ASSERT_EQ(run("soil_3d", 2, "parts", with({"--resume"})).code, 0);
+    compare_gauges("whole", "parts", 0.0);
+    fs::remove_all(results("whole"));
+    fs::remove_all(results("parts"));
+  }
+}
+
 TEST_F(Endings, AStartInEquilibriumIsNotSoughtAgainWhenResumed) {
   const std::vector<std::string> start{"--set", "soil_solver.start_in_equilibrium.longest=60",
                                        "soil_solver.stop_when_static.after=1",

@@ -16,6 +16,7 @@ struct Setting {
   LoadForm load_form = LoadForm::virtual_stress;
   const char* walls = "ppssso";  // x, (y,) z
   bool two_bodies = false;
+  Formulation formulation = Formulation::u_w;
   int outer_steps = 6, steps = 25;
 };
 
@@ -25,6 +26,8 @@ SoilOptions make_bed(const Setting& setting) {
   soil.kernel = setting.kernel;
   soil.transfer = setting.transfer;
   soil.load_form = setting.load_form;
+  soil.formulation = setting.formulation;
+  if (setting.formulation == Formulation::u_w_p) soil.water_bulk_modulus = HUGE_VAL;
   soil.bodies[0].initial_stress = GeostaticStress{};
   soil.bodies[0].permeability_law = PermeabilityLaw::kozeny_carman;
   if (setting.two_bodies) {
@@ -138,6 +141,25 @@ TEST(Ranks, GiveTheSameMotionIn3D) {
   expect_same_on_any_ranks<3>(setting);
 }
 
+// Points change cells, soil fills a part of the ranks only, and some faces join wet soil and dry.
+TEST(Ranks, GiveTheSameMotionWithProjectedPorePressure) {
+  for (const Formulation formulation : {Formulation::u_w_p, Formulation::u_p}) {
+    Setting setting;
+    setting.formulation = formulation;
+    setting.walls = "snso";
+    setting.two_bodies = true;
+    expect_same_on_any_ranks<2>(setting);
+    setting.walls = "ppso";
+    setting.outer_steps = 2;
+    setting.steps = 60;
+    expect_same_on_any_ranks<2>(setting);
+    setting.walls = "ppssso";
+    setting.outer_steps = 1;
+    setting.steps = 20;
+    expect_same_on_any_ranks<3>(setting);
+  }
+}
+
 TEST(Ranks, GiveTheSameSolidFractionAndMeanVelocity) {
   const auto fields = [](MPI_Comm comm) {
     auto grid = std::make_unique<Grid<2>>(make_grid<2>({12, 12, 1}, 0.08, "ppso", 9.81, comm));
@@ -164,8 +186,9 @@ TEST(Ranks, GiveTheSameSolidFractionAndMeanVelocity) {
 
 /// A bed in the plane, and the same one a few cells thick in y.
 void expect_plane_equals_space(const char* walls_2d, const char* walls_3d, int thick,
-                               Transfer transfer) {
+                               Transfer transfer, Formulation formulation = Formulation::u_w) {
   SoilOptions plane = make_soil(2, {-1, -1, -1}, {9, 9, 0.5}, true);
+  plane.formulation = formulation;
   plane.transfer = transfer;
   plane.bodies[0].initial_stress = GeostaticStress{};
   SoilOptions space = plane;
@@ -227,6 +250,8 @@ TEST(PlaneStrain, EqualsASliceInSpaceBetweenSlipWallsOrPeriodicOnes) {
   expect_plane_equals_space("snno", "snssno", 3, Transfer::apic);
   expect_plane_equals_space("ppso", "ppppso", 3, Transfer::flip);
   expect_plane_equals_space("ssso", "ssssso", 1, Transfer::flip);
+  expect_plane_equals_space("snno", "snssno", 3, Transfer::flip, Formulation::u_w_p);
+  expect_plane_equals_space("ppso", "ppppso", 3, Transfer::flip, Formulation::u_p);
 }
 
 template <int D>
