@@ -103,7 +103,8 @@ void read_formulation_keys(Section& section, SoilOptions& soil) {
   }
   soil.inertia_in_darcy = section.flag("inertia_in_darcy", soil.inertia_in_darcy);
   soil.loading_period = section.number_if_set(
-      "loading_period", quantity::time, positive("the shortest period of what loads the soil"));
+      "loading_period", quantity::time,
+      positive("a period lies above 0", "Give the shortest one of what loads the soil."));
 }
 
 void read_soil_solver(Section& root, SoilOptions& soil, bool water_flows,

@@ -74,9 +74,9 @@ struct EquilibriumStart {
   bool reset_displacements = true;
 };
 
-/// How grains and pore water move together (docs/methods/soil.md). u_w: velocities of both, pore
-/// pressure from compression of the water, explicit. u_w_p: the same velocities, pore pressure by
-/// an implicit projection. u_p: relative acceleration dropped, pore pressure implicit.
+/// How grains and pore water move together (docs/methods/formulations.md). u_w: velocities of both,
+/// pore pressure from compression of the water, explicit. u_w_p: the same velocities, pore pressure
+/// by an implicit projection. u_p: relative acceleration dropped, pore pressure implicit.
 enum class Formulation { u_w, u_w_p, u_p };
 
 enum class LoadForm { virtual_stress, facets };

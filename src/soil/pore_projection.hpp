@@ -1,6 +1,6 @@
 #pragma once
 /// Pore pressure by an implicit projection: formulations u-w-p and u-p
-/// (docs/methods/projection.md).
+/// (docs/methods/formulations.md).
 #include "grid/halo.hpp"
 #include "numerics/pressure_solver.hpp"
 #include "soil/energy.hpp"

@@ -9,6 +9,12 @@ incompressible grains. With D = n^2 gamma_w / k, velocities v of the grains and 
 At the top sigma' = -q_s and p = q_w, both brought on over `ramp`, linearly or by half a cosine. Displacements are expanded in sin(L x),
 L = (m + 1/2) pi/H, about the state of rest under the full load; every mode is a linear system of four equations whose
 exponential is exact. Compression of water and compressive stress are positive in what is returned. SI units.
+
+`UpColumn` solves the same column in the u-p formulation (Zienkiewicz, Chang & Bettess 1980), which leaves out the
+acceleration of the water against the grains, with K = k/(rho_w g) and f = 1 or 0, with or without the inertia of the
+mixture in Darcy's law:
+
+    rho u" = M d2u/dx2 - dp/dx      w = -K (dp/dx + f rho_w u")      p' = -(K_w/n) (du'/dx + dw/dx)
 """
 from dataclasses import dataclass
 
@@ -75,28 +81,77 @@ class SaturatedColumn:
         values = np.linalg.eigvals(self.systems(self.wave_numbers[:1])[0])
         return int(np.sum(np.abs(values.imag) > 1e-6 * np.abs(values).max())) == 4
 
-    def response(self, height, times, skeleton=0.0, water=0.0, ramp=0.0, shape="cosine"):
-        """Pore pressure [Pa] and downward displacement of the grains [m] at a height above the base, at all times."""
-        times = np.atleast_1d(np.asarray(times, float))
+    def _modes(self, skeleton, water):
+        """Of every mode: matrix, state at the start (less rest under the full load), and what it adds to the strain-like
+        quantity behind the pressure and to the displacement. Then pressure and strain at rest."""
         load = np.array([-skeleton - (1 - self.porosity) * water, -self.porosity * water])
         rest = np.linalg.solve(self.stiffness, load)  # du/dx and dU/dx when all is over
         signs = (-1.0) ** np.arange(self.modes)
-        amplitudes = (2 / self.height) * (signs / self.wave_numbers**2)[:, None] * rest
-        values, vectors = np.linalg.eig(self.systems(self.wave_numbers))
-        start = np.zeros((self.modes, 4), complex)
-        start[:, :2] = -amplitudes
-        shares = np.linalg.solve(vectors, start[..., None])[..., 0]
-        smoothing = np.sinc((np.arange(self.modes) + 0.5) / self.modes)  # Lanczos, against Gibbs' ripples
-        strain_shape = np.cos(self.wave_numbers * height) * smoothing * self.wave_numbers
-        way_shape = np.sin(self.wave_numbers * height) * smoothing
-        pressure, displacement = np.zeros(len(times)), np.zeros(len(times))
+        start = np.zeros((self.modes, 4))
+        start[:, :2] = -(2 / self.height) * (signs / self.wave_numbers**2)[:, None] * rest
         n = self.porosity
+        pressure = np.zeros((self.modes, 4))
+        pressure[:, 0] = -self.water_modulus / n * (1 - n) * self.wave_numbers
+        pressure[:, 1] = -self.water_modulus * self.wave_numbers
+        return self.systems(self.wave_numbers), start, pressure, water, rest[0]
+
+    def response(self, height, times, skeleton=0.0, water=0.0, ramp=0.0, shape="cosine"):
+        """Pore pressure [Pa] and downward displacement of the grains [m] at a height above the base, at all times."""
+        times = np.atleast_1d(np.asarray(times, float))
+        matrices, start, pressure_of, pressure_at_rest, strain_at_rest = self._modes(skeleton, water)
+        values, vectors = np.linalg.eig(matrices)
+        shares = np.linalg.solve(vectors, start[..., None].astype(complex))[..., 0]
+        smoothing = np.sinc((np.arange(self.modes) + 0.5) / self.modes)  # Lanczos, against Gibbs' ripples
+        cosines = np.cos(self.wave_numbers * height) * smoothing
+        sines = np.sin(self.wave_numbers * height) * smoothing
+        pressure, displacement = np.zeros(len(times)), np.zeros(len(times))
         for i, time in enumerate(times):
             if time <= 0:
                 continue
             share, growth = _ramped(values, time, ramp, shape)
-            deviation = np.einsum("mij,mj->mi", vectors, shares * growth).real[:, :2]
-            strain = strain_shape @ deviation + share * rest
-            pressure[i] = -self.water_modulus / n * ((1 - n) * strain[0] + n * strain[1])
-            displacement[i] = -(way_shape @ deviation[:, 0] + share * height * rest[0])
+            deviation = np.einsum("mij,mj->mi", vectors, shares * growth).real
+            pressure[i] = cosines @ np.sum(pressure_of * deviation, axis=1) + share * pressure_at_rest
+            displacement[i] = -(sines @ deviation[:, 0] + share * height * strain_at_rest)
         return pressure, displacement
+
+
+@dataclass
+class UpColumn(SaturatedColumn):
+    """The same column in the formulation u-p."""
+
+    inertia_in_darcy: bool = False
+
+    def systems(self, wave_numbers):
+        """Matrices of d(u, v, p)/dt, one per wave number."""
+        numbers = np.atleast_1d(wave_numbers)
+        density, stiffness = self.mass.sum(), self.water_modulus / self.porosity
+        mobility = self.conductivity / (self.water_density * self.gravity)
+        lost = self.water_density * self.inertia_in_darcy
+        matrices = np.zeros((len(numbers), 3, 3))
+        matrices[:, 0, 1] = 1
+        matrices[:, 1, 0] = -self.modulus * numbers**2 / density
+        matrices[:, 1, 2] = numbers / density
+        matrices[:, 2, 0] = -stiffness * mobility * lost * self.modulus * numbers**3 / density
+        matrices[:, 2, 1] = -stiffness * numbers
+        matrices[:, 2, 2] = -stiffness * mobility * numbers**2 * (1 - lost / density)
+        return matrices
+
+    def _modes(self, skeleton, water):
+        signs = (-1.0) ** np.arange(self.modes)
+        start = np.zeros((self.modes, 3))
+        start[:, 0] = (2 / self.height) * signs / self.wave_numbers**2 * skeleton / self.modulus
+        start[:, 2] = -(2 / self.height) * signs / self.wave_numbers * water
+        pressure = np.zeros((self.modes, 3))
+        pressure[:, 2] = 1
+        return self.systems(self.wave_numbers), start, pressure, water, -skeleton / self.modulus
+
+    def growth(self, wave_number):
+        """Rate [1/s] at which waves of a wave number [1/m] grow (positive) or fade."""
+        return float(np.linalg.eigvals(self.systems(wave_number)[0]).real.max())
+
+    @property
+    def well_posed(self):
+        """Do waves of all lengths fade?"""
+        density = self.mass.sum()
+        return not self.inertia_in_darcy or self.water_modulus / self.porosity * (density - self.water_density) > (
+            self.water_density * self.modulus)

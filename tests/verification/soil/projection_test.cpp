@@ -85,8 +85,8 @@ TEST(Projection, KeepsTheUndrainedAnswerWhenSoilHardlyDrains) {
         sum += share;
         ++count;
       }
-      std::printf("%s undrained, K_w = %g Pa: p0/q = %.5f, exact %.5f\n", name_of(formulation), bulk,
-                  sum / count, column.undrained_share());
+      std::printf("%s undrained, K_w = %g Pa: p0/q = %.5f, exact %.5f\n", name_of(formulation),
+                  bulk, sum / count, column.undrained_share());
       EXPECT_NEAR(sum / count, column.undrained_share(), 1e-3);
     }
 }
@@ -135,8 +135,7 @@ std::array<double, 2> bed_at_rest(Formulation formulation, double bulk, Kernel k
   for (std::size_t p = 0; p < points.size(); ++p) {
     const double z = points.position[D - 1][p];
     worst[0] = std::max(worst[0], std::abs(z - points.start[D - 1][p]) / elastic);
-    worst[1] =
-        std::max(worst[1], std::abs(points.pore_pressure[p] - 9810.0 * (1.0 - z)) / 9810.0);
+    worst[1] = std::max(worst[1], std::abs(points.pore_pressure[p] - 9810.0 * (1.0 - z)) / 9810.0);
   }
   std::printf("at rest, %s, %dD, kernel %d: way %.2e of the settlement, pressure %.2e\n",
               name_of(formulation), D, static_cast<int>(kernel), worst[0], worst[1]);
@@ -145,9 +144,9 @@ std::array<double, 2> bed_at_rest(Formulation formulation, double bulk, Kernel k
 
 TEST(Projection, LeavesAGeostaticBedAtRest) {
   for (const Kernel kernel : soil_runs::every_kernel)
-    for (const auto& [formulation, bulk] : {std::pair{Formulation::u_w_p, HUGE_VAL},
-                                            std::pair{Formulation::u_w_p, 2e9},
-                                            std::pair{Formulation::u_p, 2e7}}) {
+    for (const auto& [formulation, bulk] :
+         {std::pair{Formulation::u_w_p, HUGE_VAL}, std::pair{Formulation::u_w_p, 2e9},
+          std::pair{Formulation::u_p, 2e7}}) {
       const auto [way, pressure] = bed_at_rest<2>(formulation, bulk, kernel, Transfer::flip);
       EXPECT_LT(way, 1e-3);
       EXPECT_LT(pressure, 1e-2);  // at the rim; as much as in u-w
@@ -256,8 +255,8 @@ TEST(UP, GrowsAndFadesAtTheRatesOfLinearTheory) {
   const double number = pi / 0.05;
   for (const bool inertia : {true, false})
     for (const double conductivity : {1e-5, 1e-4, 1e-3}) {
-      const SaturatedLayer layer{1e9 * 0.65 / (1.35 * 0.3),   0.4, 2650.0, 1000.0, 2.15e7,
-                                 conductivity / 9810.0, 1.0};
+      const SaturatedLayer layer{1e9 * 0.65 / (1.35 * 0.3), 0.4, 2650.0, 1000.0, 2.15e7,
+                                 conductivity / 9810.0,     1.0};
       const double theory = u_p_growth(layer, number, inertia);
       const double measured = measured_growth(conductivity, inertia, number);
       std::printf("u-p, k = %g m/s, inertia %d: growth %.4g 1/s, theory %.4g 1/s\n", conductivity,
@@ -268,8 +267,8 @@ TEST(UP, GrowsAndFadesAtTheRatesOfLinearTheory) {
 
 // Figures of the exact solutions in the chart of Zienkiewicz, Chang & Bettess (1980).
 TEST(UP, KnowsWhereItHolds) {
-  const SaturatedLayer layer{1e9 * 0.65 / (1.35 * 0.3), 0.4, 2650.0, 1000.0, 2.15e7, 1e-5 / 9810.0,
-                             1.0};
+  const SaturatedLayer layer{
+      1e9 * 0.65 / (1.35 * 0.3), 0.4, 2650.0, 1000.0, 2.15e7, 1e-5 / 9810.0, 1.0};
   EXPECT_NEAR(layer.undrained_wave(), 912.97, 0.01);
   const RegimeNumbers numbers = regime_numbers(layer, layer.first_frequency());
   EXPECT_NEAR(numbers.second, 0.25 * pi * pi, 1e-12);
