@@ -175,6 +175,11 @@ void read_solvers(Section& root, CaseOptions& options, std::optional<double> cou
           "leave out [[water.body]] or write method = \"explicit\"");
   } else if (root.has("soil_solver"))
     report.add(root.place("soil_solver"), "[soil_solver] is not used: the case has no [[soil]]");
+  if (options.soil && options.soil->method == TimeMethod::implicit_steps &&
+      !options.soil->solids.empty())
+    report.add(root.place("solid"),
+               "[[solid]] needs soil_solver.method = \"explicit\"\n  (implicit steps know no "
+               "contact yet). Slow motion: damping and mass_scaling under [soil_solver].");
   if (options.flow)
     read_flow_solver(root, *options.flow, courant);
   else if (root.has("flow_solver"))

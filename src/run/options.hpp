@@ -34,12 +34,18 @@ enum class GaugeQuantity {
   pore_pressure,     ///< of the material that started at `at` [Pa]
   effective_stress,  ///< xx, yy, zz, zx of the material that started at `at` [Pa]
   point_porosity,    ///< of the material that started at `at` [-]
+  solid_force,         ///< of the soil on a rigid body, mean over the last outer step [N]
+  solid_moment,        ///< of the same about the body's centre [N m]
+  solid_displacement,  ///< of a rigid body's centre since the start [m]
+  solid_rotation,      ///< of a rigid body since the start [rad]
+  solid_velocity,      ///< of a rigid body's centre [m/s]
 };
 
 struct GaugeOptions {
   std::string name;
   GaugeQuantity quantity = GaugeQuantity::water_level;
   Point3 at{};
+  std::string of;      ///< name of the rigid body
   double every = 0.0;  ///< [s]; 0: every outer step
 };
 

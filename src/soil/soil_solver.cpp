@@ -22,6 +22,8 @@ namespace {
 
 /// Points may go this far between visits to their owners, in cells: the ghost layers hold no more.
 constexpr double longest_travel = 0.9;
+/// The same where contacts lie up to half a cell beside the points.
+constexpr double longest_travel_with_solids = 0.45;
 /// Points whose state is updated together; their arrays fit into the second-level cache.
 constexpr std::size_t points_per_block = 1024;
 /// No point is split in a cell that holds so many times the points of a full one.
@@ -79,6 +81,13 @@ SoilSolver<D>::SoilSolver(const Grid<D>& grid, const SoilOptions& options)
       throw InputError(fmt::format("soil {}: law {} cannot be used with this strain measure",
                                    body.name, laws_.back()->name()));
   }
+  if (options.solids.empty()) return;
+  if (is_implicit())
+    throw InputError(
+        "[[solid]] needs soil_solver.method = \"explicit\": implicit steps know no contact.");
+  for (const SolidOptions& solid : options.solids)
+    solids_.emplace_back(solid, D, to_point3(grid.gravity()), options.mass_scaling);
+  solid_contact_.emplace(grid, options);
 }
 
 template <int D>
@@ -86,7 +95,8 @@ void SoilSolver<D>::initialise() {
   points_.clear();
   for (std::size_t b = 0; b < options_.bodies.size(); ++b)
     points_.push_back(seed_points(*grid_, options_.bodies[b], b, options_.transfer,
-                                  options_.split_stretched.has_value()));
+                                  options_.split_stretched || !options_.solids.empty(),
+                                  options_.solids));
   set_initial_stress(*grid_, options_, points_);
   for (std::size_t b = 0; b < points_.size(); ++b)
     initialise_material_state(points_[b], *laws_[b], options_.bodies[b].strain,
@@ -150,19 +160,22 @@ void SoilSolver<D>::begin_step(double time, double length, const FluidLoad<D>* w
   length_ = length;
   mean_velocity_.fill(0.0);
   surface_.begin_step(time, length, water, active_);
+  for (Solid& solid : solids_) solid.begin_outer_step();
 }
 
 template <int D>
 void SoilSolver<D>::advance(double dt) {
   if (is_implicit()) return advance_implicitly(dt, 0);
-  if (travelled_ > longest_travel) {
+  if (travelled_ > (solid_contact_ ? longest_travel_with_solids : longest_travel)) {
     redistribute();
     surface_.resample(active_);
   }
   sort_strays();
   gather_nodes();
+  for (Solid& solid : solids_) solid.begin_step(time_, dt, solids_wait_);
   solve_nodes(dt);
   update_points(dt);
+  for (Solid& solid : solids_) solid.move(dt);
   time_ += dt;
 }
 
@@ -233,34 +246,33 @@ void SoilSolver<D>::solve_face(const NodeSums& sums, double dt, double face_volu
     vs = (grain_rhs * (ml + drag) + drag * water_rhs) / determinant;
     vl = (water_rhs * (ms + drag) + drag * grain_rhs) / determinant;
   }
-  // Local damping (Cundall 1987): a share of the unbalanced force against the motion, each phase by
-  // itself.
-  const auto damped = [](double coefficient, double now, double old) {
-    if (coefficient == 0.0) return now;
-    const double change = now - old;
-    return now - coefficient * std::copysign(std::abs(change), old);
-  };
-  vs = damped(options_.damping, vs, old_grain);
-  vl = ml > 0.0 ? damped(options_.water_damping.value_or(options_.damping), vl, old_water) : vs;
   motion.grain_velocity = vs;
   motion.grain_change = vs - old_grain;
   motion.water_velocity = vl;
   motion.water_change = vl - old_water;
-  motion.total_flux = vs + porosity * (vl - vs);
 }
 
-/// Faces whose motion this rank computes itself: its own, and those behind open sides, which are no
-/// mirrors.
+/// Local damping (Cundall 1987): a share of the unbalanced force against the motion, each phase by
+/// itself. What bodies press with is a part of that force.
 template <int D>
-IndexBox<D> SoilSolver<D>::solved_faces(int axis) const {
-  IndexBox<D> faces = grid_->owned_faces(axis);
-  for (int a = 0; a < D; ++a) {
-    if (grid_->touches(a, 0) && grid_->wall(a, 0) == Wall::open)
-      faces.lower[a] = grid_->local().lower[a];
-    if (grid_->touches(a, 1) && grid_->wall(a, 1) == Wall::open)
-      faces.upper[a] = grid_->local().upper[a];
+void SoilSolver<D>::damp_face(const NodeSums& sums, NodeMotion& motion) const {
+  const auto damp = [](double coefficient, double& velocity, double& change) {
+    if (coefficient == 0.0) return;
+    const double loss = coefficient * std::copysign(std::abs(change), velocity - change);
+    velocity -= loss, change -= loss;
+  };
+  damp(options_.damping, motion.grain_velocity, motion.grain_change);
+  const double vs = motion.grain_velocity;
+  if (sums.water_mass > 0.0) {
+    damp(options_.water_damping.value_or(options_.damping), motion.water_velocity,
+         motion.water_change);
+    const double porosity =
+        std::min(1.0, sums.water_mass / (options_.water_density * sums.volume));
+    motion.total_flux = vs + porosity * (motion.water_velocity - vs);
+  } else {
+    motion.water_velocity = motion.total_flux = vs;
+    motion.water_change = motion.grain_change;
   }
-  return faces.intersected(active_);
 }
 
 template <int D>
@@ -270,10 +282,19 @@ void SoilSolver<D>::solve_nodes(double dt) {
     const double volume = grid_->cell_volume();
     const NodeSums* sums = sums_[u].data();
     NodeMotion* motion = motion_[u].data();
-    for_each(solved_faces(d), [&](const Index<D>& face) {
+    for_each(solved_faces(*grid_, d).intersected(active_), [&](const Index<D>& face) {
       const std::ptrdiff_t at = grid_->offset(face);
       solve_face(sums[at], dt, volume, motion[at]);
+      if (!solid_contact_) damp_face(sums[at], motion[at]);
     });
+  }
+  if (solid_contact_) {
+    solid_contact_->apply(dt, constants_, active_, solids_, points_, sums_, motion_);
+    for (int d = 0; d < D; ++d) {
+      const auto u = static_cast<std::size_t>(d);
+      for_each(solved_faces(*grid_, d).intersected(active_),
+               [&](const Index<D>& face) { damp_face(sums_[u][face], motion_[u][face]); });
+    }
   }
   if (!wall_contact_.empty())
     wall_contact_.apply({dt, options_.transfer == Transfer::apic ? 0.0 : options_.flip_fraction,
@@ -284,7 +305,7 @@ void SoilSolver<D>::solve_nodes(double dt) {
     const NodeSums* sums = sums_[static_cast<std::size_t>(d)].data();
     const NodeMotion* motion = motion_[static_cast<std::size_t>(d)].data();
     double* mean = mean_velocity_[d].data();
-    for_each(solved_faces(d), [&](const Index<D>& face) {
+    for_each(solved_faces(*grid_, d).intersected(active_), [&](const Index<D>& face) {
       const std::ptrdiff_t at = grid_->offset(face);
       mean[at] += dt / length_ * motion[at].grain_velocity;
       add_face_work(sums[at], motion[at], options_.water_density, options_.mass_scaling, dt,
