@@ -7,6 +7,7 @@ from matplotlib.colors import LinearSegmentedColormap, Normalize
 WATER = LinearSegmentedColormap.from_list("water", [(0.12, 0.45, 0.78, 0.0), (0.12, 0.45, 0.78, 0.75)])
 GROUND = "#b9a68a"
 SOIL = "#a9793f"
+SOLID = "#6b7178"
 NARROW = 4.0  # domains that are higher or longer than this many times the other way are not drawn to scale
 
 
@@ -75,6 +76,23 @@ def draw_ground(axes, results, time, points):
         axes.contourf(x, z, np.pad(solid.astype(float), 1, mode="edge"), levels=[0.5, 2.0], colors=[GROUND],
                       hatches=["..."], alpha=0.6, zorder=2)
     return state
+
+
+def draw_solids(axes, results, time):
+    """Rigid bodies, up to where they fill half a cell. Returns whether there are any."""
+    if "solid" not in results.field_names:
+        return False
+    state = results.field("solid", time)
+    share = middle_cut(state.values, len(state.lower))
+    if share.max() < 0.5:
+        return False
+    left, right, bottom, top = extent(state)
+    x = np.concatenate([[left], state.centres(0), [right]])
+    z = np.concatenate([[bottom], state.centres(len(state.lower) - 1), [top]])
+    share = np.pad(share, 1, mode="edge")
+    axes.contourf(x, z, share, levels=[0.5, 2.0], colors=[SOLID], zorder=4)
+    axes.contour(x, z, share, levels=[0.5], colors=["black"], linewidths=0.8, zorder=4)
+    return True
 
 
 def sides(points):

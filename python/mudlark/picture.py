@@ -14,7 +14,7 @@ from mudlark.results import Results, ResultsError
 
 
 def draw_start(folder, path):
-    """Water, soil and fixed porous ground at the first output."""
+    """Water, soil, rigid bodies and fixed porous ground at the first output."""
     results = Results(folder)
     if not results.times:
         raise ResultsError(f"{folder} has no outputs")
@@ -35,6 +35,8 @@ def draw_start(folder, path):
             legend.append(Patch(color=drawing.SOIL, label="soil"))
         if any(collection.get_zorder() == 2 for collection in axes.collections):
             legend.append(Patch(facecolor=drawing.GROUND, hatch="...", alpha=0.6, label="porous ground"))
+        if drawing.draw_solids(axes, results, time):
+            legend.append(Patch(color=drawing.SOLID, label="rigid body"))
         drawing.apply_frame(axes, limits)
         cut = ", cut through the middle" if grid is not None and len(grid.lower) == 3 else ""
         axes.set_title(f"t = {time:.4g} s{cut}", loc="left")

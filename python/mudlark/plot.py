@@ -94,7 +94,7 @@ def default_quantity(results):
 
 
 def draw_states(results, times, path, quantity=None):
-    """Water, ground and soil; `quantity` colours the soil points."""
+    """Water, ground, soil and rigid bodies; `quantity` colours the soil points."""
     quantity = quantity or default_quantity(results)
     points = [results.points(time) for time in times] if results.point_times else [None] * len(times)
     porosity = results.field("porosity", times[0]) if "porosity" in results.field_names else None
@@ -116,6 +116,7 @@ def draw_states(results, times, path, quantity=None):
         if points[index] is not None:
             coloured = values[index][0] * factor if quantity else None
             squares = drawing.draw_points(axis, points[index], cuts[index], coloured, norm)
+        drawing.draw_solids(axis, results, time)
         finish_panel(axis, limits, time)
     if squares is not None and quantity:
         figure.colorbar(squares, ax=axes, label=label, shrink=0.8, pad=0.02)

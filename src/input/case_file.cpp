@@ -1,26 +1,10 @@
 #include "input/case_file.hpp"
 
-#include <fmt/format.h>
-
 #include "base/errors.hpp"
 #include "input/document.hpp"
 #include "input/sections.hpp"
 
 namespace mudlark {
-namespace {
-
-void refuse_later_sections(Section& root) {
-  for (const std::string key : {"solid"})
-    if (root.has(key))
-      root.reading().report.add(
-          root.place(key),
-          fmt::format("[[{}]] is not available yet; available: [domain], [time], "
-                      "[water], [[water.body]], [[soil]], [[porous]], [coupling], "
-                      "[[load]], [[wave]], [[gauge]], [soil_solver], [flow_solver]",
-                      key));
-}
-
-}  // namespace
 
 CaseOptions read_case(const std::filesystem::path& file, std::span<const std::string> overrides) {
   Reading reading;
@@ -36,12 +20,12 @@ CaseOptions read_case(const std::filesystem::path& file, std::span<const std::st
   const WaterProperties water = read_water(root, options);
   read_porous(root, options, grounds);
   read_soil(root, options, water, grounds);
+  read_solids(root, options);
   read_coupling(root, options);
   read_loads(root, options);
   read_waves(root, options);
   read_solvers(root, options, courant);
   read_gauges(root, options);
-  refuse_later_sections(root);
   check_overlaps(reading, grounds);
   if (!root.has("soil") && !options.flow)
     root.missing("soil or water.body",

@@ -28,6 +28,12 @@ inline constexpr Quantity acceleration{"an acceleration", "m/s2", "\"9.81 m/s2\"
 inline constexpr Quantity permeability{"an intrinsic permeability", "m2", "\"1e-10 m2\""};
 inline constexpr Quantity forchheimer{"a Forchheimer coefficient B of (A + B|w|) w", "kg/m4",
                                       "\"5e5 kg/m4\""};
+inline constexpr Quantity mass{"a mass", "kg", "\"2 t\""};
+inline constexpr Quantity inertia{"a moment of inertia", "kg m2", "\"100 kg m2\""};
+inline constexpr Quantity force{"a force", "N", "\"10 kN\""};
+inline constexpr Quantity moment{"a moment", "N m", "\"10 kN m\""};
+inline constexpr Quantity rotation{"a rotation", "rad", "\"5 degree\""};
+inline constexpr Quantity angular_velocity{"an angular velocity", "rad/s", "\"5 degree/s\""};
 /// Plain numbers are degrees, as in every soil report; the readers turn them into radians.
 inline constexpr Quantity angle{"an angle", "degree", "\"30 degree\""};
 inline constexpr Quantity number{"a number without unit", "1", "0.4"};

@@ -8,7 +8,7 @@
 namespace mudlark {
 namespace {
 
-enum class Of { water, soil, both };
+enum class Of { water, soil, both, solid };
 
 struct Kind {
   GaugeQuantity quantity;
@@ -17,7 +17,7 @@ struct Kind {
   bool has_place;
 };
 
-constexpr std::array<Kind, 12> kinds{{
+constexpr std::array<Kind, 17> kinds{{
     {GaugeQuantity::water_level, "water_level", Of::water, true},
     {GaugeQuantity::pressure, "pressure", Of::water, true},
     {GaugeQuantity::velocity, "velocity", Of::water, true},
@@ -30,6 +30,11 @@ constexpr std::array<Kind, 12> kinds{{
     {GaugeQuantity::pore_pressure, "pore_pressure", Of::soil, true},
     {GaugeQuantity::effective_stress, "effective_stress", Of::soil, true},
     {GaugeQuantity::point_porosity, "point_porosity", Of::soil, true},
+    {GaugeQuantity::solid_force, "solid_force", Of::solid, false},
+    {GaugeQuantity::solid_moment, "solid_moment", Of::solid, false},
+    {GaugeQuantity::solid_displacement, "solid_displacement", Of::solid, false},
+    {GaugeQuantity::solid_rotation, "solid_rotation", Of::solid, false},
+    {GaugeQuantity::solid_velocity, "solid_velocity", Of::solid, false},
 }};
 
 const Kind& kind_of(GaugeQuantity quantity) {
@@ -69,6 +74,20 @@ void read_place(Section& section, const CaseOptions& options, const Kind& kind,
     section.fail("at", "no soil starts there, and this gauge follows soil");
 }
 
+/// of = "NAME" of a rigid body.
+void read_solid_name(Section& section, const CaseOptions& options, GaugeOptions& gauge) {
+  Section::Words names;
+  if (options.soil)
+    for (const SolidOptions& solid : options.soil->solids) names.push_back(solid.name);
+  if (names.empty()) {
+    section.has("of");
+    return section.fail("quantity", "it measures a rigid body, and the case has no [[solid]]");
+  }
+  std::vector<Choice<std::string>> choices;
+  for (const std::string& name : names) choices.push_back({name, name});
+  gauge.of = section.choice<std::string>("of", choices);
+}
+
 }  // namespace
 
 void read_gauges(Section& root, CaseOptions& options) {
@@ -79,20 +98,28 @@ void read_gauges(Section& root, CaseOptions& options) {
     GaugeOptions gauge;
     gauge.name = read_name(section, names);
     const std::size_t before = root.reading().report.size();
-    gauge.quantity = section.choice<GaugeQuantity>(
-        "quantity", choices, {}, {"section_force", "force", "discharge", "total_mass"});
+    gauge.quantity = section.choice<GaugeQuantity>("quantity", choices, {},
+                                                   {"section_force", "discharge", "total_mass"});
     const bool known = root.reading().report.size() == before;
     const Kind& kind = kind_of(gauge.quantity);
     if (known && kind.of == Of::water && !options.flow)
       section.fail("quantity", "it measures flowing water, and the case has no [[water.body]]");
     if (known && kind.of == Of::soil && !root.has("soil"))
       section.fail("quantity", "it measures soil, and the case has no [[soil]]");
+    if (known && kind.of == Of::solid)
+      read_solid_name(section, options, gauge);
+    else if (known)
+      section.forbid("of", fmt::format("{} is not measured on a rigid body", kind.name));
+    else
+      section.has("of");
     if (!known)
       section.has("at");
     else if (kind.has_place)
       read_place(section, options, kind, gauge);
     else
-      section.forbid("at", fmt::format("{} is measured in the whole domain", kind.name));
+      section.forbid("at", kind.of == Of::solid
+                               ? fmt::format("{} is that of a whole body", kind.name)
+                               : fmt::format("{} is measured in the whole domain", kind.name));
     gauge.every =
         section.number("every", quantity::time,
                        not_negative("the time between values; 0 for every step"), gauge.every);

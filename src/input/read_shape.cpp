@@ -196,7 +196,7 @@ std::optional<Shape> read_form(Section& shape, const Place& place, int depth) {
   return form;
 }
 
-bool inside_domain(const BoxShape& box, const BoxShape& domain) {
+bool inside_domain(const BoxShape& box, const BoxShape& domain, bool may_leave) {
   bool touches = true, leaves = false;
   for (std::size_t a = 0; a < 3; ++a) {
     if (std::isinf(domain.lower[a])) continue;
@@ -205,7 +205,7 @@ bool inside_domain(const BoxShape& box, const BoxShape& domain) {
     leaves = leaves || (std::isfinite(box.upper[a]) && box.upper[a] > domain.upper[a] + slack);
     touches = touches && box.lower[a] < domain.upper[a] && box.upper[a] > domain.lower[a];
   }
-  return touches && !leaves;
+  return touches && (may_leave || !leaves);
 }
 
 /// The part of [0, 1) that the i-th point of Halton's sequence takes along an axis (van der Corput,
@@ -243,7 +243,7 @@ bool overlap(const Shape& one, const Shape& other, const BoxShape& domain) {
 
 }  // namespace
 
-std::optional<Shape> read_shape(Section& section, std::string_view key) {
+std::optional<Shape> read_shape(Section& section, std::string_view key, bool may_leave) {
   if (!section.has(key)) {
     section.missing(key, "for example { box = { lower = [0, 0], upper = [1, 1] } }");
     return {};
@@ -252,8 +252,10 @@ std::optional<Shape> read_shape(Section& section, std::string_view key) {
   if (!std::holds_alternative<Table>(section.raw(key)->data)) return {};
   auto form = read_form(shape, section.place(key), 0);
   const auto& domain = section.reading().domain;
-  if (!form || !domain || inside_domain(bounds(*form), *domain)) return form;
-  section.fail(key, "it lies outside the domain, or reaches over its edge",
+  if (!form || !domain || inside_domain(bounds(*form), *domain, may_leave)) return form;
+  section.fail(key,
+               may_leave ? "it lies outside the domain"
+                         : "it lies outside the domain, or reaches over its edge",
                "Make the shape smaller or the domain larger.");
   return {};
 }
@@ -263,10 +265,9 @@ void check_overlaps(Reading& reading, const std::vector<NamedShape>& grounds) {
   for (std::size_t i = 0; i < grounds.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (overlap(grounds[i].shape, grounds[j].shape, *reading.domain))
-        reading.report.add(
-            grounds[i].place,
-            fmt::format("{} overlaps {}\n  (no two bodies of ground can fill the same space).",
-                        grounds[i].what, grounds[j].what));
+        reading.report.add(grounds[i].place,
+                           fmt::format("{} overlaps {}\n  (no two bodies can fill the same space).",
+                                       grounds[i].what, grounds[j].what));
 }
 
 std::string read_name(Section& section, std::vector<std::string>& used) {

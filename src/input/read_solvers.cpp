@@ -176,24 +176,38 @@ void read_flow_solver(Section& root, FlowOptions& flow, std::optional<double> co
   section.finish();
 }
 
+/// What does not go together with implicit steps, or with an implicit pore pressure.
+void check_method(Section& root, const SoilOptions& soil, bool water_flows) {
+  Report& report = root.reading().report;
+  const bool implicit = soil.method == TimeMethod::implicit_steps;
+  if (implicit && water_flows)
+    report.add(root.place("soil_solver"),
+               "soil_solver.method = \"implicit\" has no inertia and cannot follow flowing water; "
+               "leave out [[water.body]] or write method = \"explicit\"");
+  if (implicit && soil.formulation != Formulation::u_w)
+    report.add(
+        root.place("soil_solver"),
+        "soil_solver.method = \"implicit\" finds pore pressure in its own way\n  (formulation "
+        "= \"u-w-p\" and \"u-p\" are explicit in the skeleton). Leave formulation out of "
+        "[[soil]], or write method = \"explicit\".");
+  if (soil.solids.empty()) return;
+  if (implicit)
+    report.add(root.place("solid"),
+               "[[solid]] needs soil_solver.method = \"explicit\"\n  (implicit steps know no "
+               "contact yet). Slow motion: damping and mass_scaling under [soil_solver].");
+  if (soil.formulation != Formulation::u_w)
+    report.add(root.place("solid"),
+               "[[solid]] needs formulation = \"u-w\" under [[soil]]\n  (the pore pressure of "
+               "u-w-p and u-p does not know that bodies are impermeable).");
+}
+
 }  // namespace
 
 void read_solvers(Section& root, CaseOptions& options, std::optional<double> courant) {
   Report& report = root.reading().report;
   if (options.soil) {
     read_soil_solver(root, *options.soil, options.flow.has_value(), courant);
-    if (options.soil->method == TimeMethod::implicit_steps && options.flow)
-      report.add(
-          root.place("soil_solver"),
-          "soil_solver.method = \"implicit\" has no inertia and cannot follow flowing water; "
-          "leave out [[water.body]] or write method = \"explicit\"");
-    if (options.soil->method == TimeMethod::implicit_steps &&
-        options.soil->formulation != Formulation::u_w)
-      report.add(
-          root.place("soil_solver"),
-          "soil_solver.method = \"implicit\" finds pore pressure in its own way\n  (formulation "
-          "= \"u-w-p\" and \"u-p\" are explicit in the skeleton). Leave formulation out of "
-          "[[soil]], or write method = \"explicit\".");
+    check_method(root, *options.soil, options.flow.has_value());
   } else if (root.has("soil_solver"))
     report.add(root.place("soil_solver"), "[soil_solver] is not used: the case has no [[soil]]");
   if (options.flow)

@@ -87,6 +87,7 @@ class Section {
   std::vector<std::array<double, 2>> pairs(std::string_view key, const Quantity& quantity);
   Varying varying(std::string_view key, const Quantity& quantity, const Bounds& bounds,
                   std::optional<double> fallback = {});
+  /// As components x, y, z, whatever the number of axes.
   std::array<Varying, 3> varying_per_axis(std::string_view key, const Quantity& quantity);
   /// The path of a file that exists. A relative one belongs to the folder of the case file, or else
   /// to the working directory; what is recorded holds from everywhere. Empty after a mistake.

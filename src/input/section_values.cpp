@@ -169,7 +169,7 @@ std::array<Varying, 3> Section::varying_per_axis(std::string_view key, const Qua
     if (list) {
       auto entry =
           varying_value((*list)[i], fmt::format("{}[{}]", name_of(key), i), quantity, {}, recorded);
-      if (entry) result[i] = *entry;
+      if (entry) result[axes == 2 && i == 1 ? 2 : i] = *entry;  // x, z
     }
     all += (i > 0 ? ", " : "") + recorded;
   }

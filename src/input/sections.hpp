@@ -52,13 +52,16 @@ void resolve_dilatancy(Section& section, double porosity, SekiguchiOhtaOptions& 
 SoilLawOptions read_umat(Section& law);
 /// [[wave]]: after [domain] and [water].
 void read_waves(Section& root, CaseOptions& options);
+/// [[solid]]: after [[water.body]] and [[soil]].
+void read_solids(Section& root, CaseOptions& options);
 void read_loads(Section& root, CaseOptions& options);
 void read_solvers(Section& root, CaseOptions& options, std::optional<double> courant);
 void read_coupling(Section& root, CaseOptions& options);
 void read_gauges(Section& root, CaseOptions& options);
 
-/// The shape below `key`, inside the domain; nothing after a mistake.
-std::optional<Shape> read_shape(Section& section, std::string_view key);
+/// The shape below `key`, inside the domain, unless it may reach over its edge; nothing after a
+/// mistake.
+std::optional<Shape> read_shape(Section& section, std::string_view key, bool may_leave = false);
 /// { stl = "file.stl", scale = , offset = } of a shape; nothing after a mistake.
 std::optional<Shape> read_stl(Section& shape);
 /// kappa [m2] from intrinsic_permeability or, with the water's density [kg/m3] and viscosity [Pa
@@ -66,7 +69,7 @@ std::optional<Shape> read_stl(Section& shape);
 /// gravity.
 std::optional<double> read_permeability(Section& section, double density, double viscosity,
                                         bool required);
-/// Reports bodies of ground that fill the same space.
+/// Reports bodies of ground, or rigid ones, that fill the same space.
 void check_overlaps(Reading& reading, const std::vector<NamedShape>& grounds);
 
 /// A position given per axis, as (x, y, z).

@@ -71,6 +71,8 @@ std::string to_json(const Summary& summary) {
   json["conservation errors"] = object_of(summary.conservation_errors);
   if (!summary.soil_energy.empty()) json["energy of the soil [J]"] = object_of(summary.soil_energy);
   if (!summary.soil_statics.empty()) json["rest of the soil"] = object_of(summary.soil_statics);
+  for (const SolidSummary& solid : summary.solids)
+    for (const auto& [title, values] : solid.values) json["solids"][solid.name][title] = values;
   json["gauges"] = gauges_of(summary.gauges);
   json["peak memory [bytes]"] = summary.peak_memory_bytes;
   // A title may hold bytes that are no UTF-8; they are replaced, not refused.

@@ -19,6 +19,12 @@ struct GaugeSummary {
   std::optional<GaugeExtremes> extremes;
 };
 
+/// Where a rigid body is and what it feels: titles with units, values per axis.
+struct SolidSummary {
+  std::string name;
+  std::vector<std::pair<std::string, std::vector<double>>> values;
+};
+
 /// A number that is not known (NaN) is written as null.
 struct Summary {
   std::string status = "running";  ///< running | done | diverged | interrupted | failed
@@ -35,6 +41,7 @@ struct Summary {
   std::vector<std::pair<std::string, double>> conservation_errors;  ///< relative to the start
   std::vector<std::pair<std::string, double>> soil_energy;          ///< work of the soil [J]
   std::vector<std::pair<std::string, double>> soil_statics;         ///< how far from rest, shares
+  std::vector<SolidSummary> solids;
   std::vector<GaugeSummary> gauges;
   double peak_memory_bytes = 0.0;  ///< all ranks together
 };

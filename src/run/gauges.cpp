@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/errors.hpp"
 #include "run/material_gauge.hpp"
 
@@ -22,6 +24,12 @@ std::vector<std::string> per_axis(const std::string& name, const std::string& un
                                          : std::vector<const char*>{"x", "y", "z"})
     columns.push_back(fmt::format("{} {} [{}]", name, axis, unit));
   return columns;
+}
+
+std::vector<std::string> about_each(const std::string& name, const std::string& unit,
+                                    int dimension) {
+  if (dimension == 2) return {fmt::format("{} [{}]", name, unit)};
+  return per_axis(name, unit, dimension);
 }
 
 MaterialQuantity material_quantity(GaugeQuantity quantity) {
@@ -50,10 +58,46 @@ std::vector<double> read_soil(World<D>& world, const GaugeOptions& gauge) {
   return values;
 }
 
+/// Components along the axes of the problem.
+template <int D>
+std::vector<double> along_axes(const Eigen::Vector3d& v) {
+  if constexpr (D == 2) return {v[0], v[2]};
+  return {v[0], v[1], v[2]};
+}
+/// Components about the axes; in the plane one, counter-clockwise, which is about -y.
+template <int D>
+std::vector<double> about_axes(const Eigen::Vector3d& v) {
+  if constexpr (D == 2) return {-v[1]};
+  return {v[0], v[1], v[2]};
+}
+
+template <int D>
+std::vector<double> read_solid(World<D>& world, const GaugeOptions& gauge) {
+  const std::vector<Solid>& solids = world.soil()->solids();
+  const Solid& solid = *std::find_if(solids.begin(), solids.end(), [&](const Solid& one) {
+    return one.options().name == gauge.of;
+  });
+  switch (gauge.quantity) {
+    case GaugeQuantity::solid_force:
+      return along_axes<D>(solid.force());
+    case GaugeQuantity::solid_moment:
+      return about_axes<D>(solid.moment());
+    case GaugeQuantity::solid_displacement:
+      return along_axes<D>(solid.displacement());
+    case GaugeQuantity::solid_rotation:
+      return about_axes<D>(solid.rotation());
+    default:
+      return along_axes<D>(solid.velocity());
+  }
+}
+
 template <int D>
 double kinetic_energy(World<D>& world) {
   double energy = world.flow() ? world.flow()->kinetic_energy() : 0.0;
-  if (world.soil()) energy += world.soil()->totals().kinetic_energy;
+  if (world.soil()) {
+    energy += world.soil()->totals().kinetic_energy;
+    for (const Solid& solid : world.soil()->solids()) energy += solid.kinetic_energy();
+  }
   return energy;
 }
 
@@ -87,6 +131,16 @@ std::vector<std::string> gauge_columns(const GaugeOptions& gauge, int dimension)
               "effective stress zx [Pa]"};
     case GaugeQuantity::point_porosity:
       return {"porosity [1]"};
+    case GaugeQuantity::solid_force:
+      return per_axis("force", dimension == 2 ? "N/m" : "N", dimension);
+    case GaugeQuantity::solid_moment:
+      return about_each("moment", dimension == 2 ? "N m/m" : "N m", dimension);
+    case GaugeQuantity::solid_displacement:
+      return per_axis("displacement", "m", dimension);
+    case GaugeQuantity::solid_rotation:
+      return about_each("rotation", "rad", dimension);
+    case GaugeQuantity::solid_velocity:
+      return per_axis("velocity", "m/s", dimension);
   }
   return {};
 }
@@ -111,11 +165,36 @@ std::vector<double> read_gauge(World<D>& world, const GaugeOptions& gauge) {
       return {kinetic_energy(world)};
     case GaugeQuantity::max_speed:
       return {world.flow()->max_speed().speed};
+    case GaugeQuantity::solid_force:
+    case GaugeQuantity::solid_moment:
+    case GaugeQuantity::solid_displacement:
+    case GaugeQuantity::solid_rotation:
+    case GaugeQuantity::solid_velocity:
+      return read_solid(world, gauge);
     default:
       return read_soil(world, gauge);
   }
 }
 
+template <int D>
+std::vector<SolidSummary> describe_solids(World<D>& world) {
+  std::vector<SolidSummary> all;
+  if (!world.soil()) return all;
+  const std::string force = D == 2 ? "N/m" : "N", moment = D == 2 ? "N m/m" : "N m";
+  for (const Solid& solid : world.soil()->solids())
+    all.push_back({solid.options().name,
+                   {{"centre [m]", along_axes<D>(solid.centre())},
+                    {"displacement [m]", along_axes<D>(solid.displacement())},
+                    {"rotation [rad]", about_axes<D>(solid.rotation())},
+                    {"velocity [m/s]", along_axes<D>(solid.velocity())},
+                    {"angular velocity [rad/s]", about_axes<D>(solid.spin())},
+                    {"force [" + force + "]", along_axes<D>(solid.force())},
+                    {"moment [" + moment + "]", about_axes<D>(solid.moment())}}});
+  return all;
+}
+
+template std::vector<SolidSummary> describe_solids(World<2>&);
+template std::vector<SolidSummary> describe_solids(World<3>&);
 template std::vector<double> read_gauge(World<2>&, const GaugeOptions&);
 template std::vector<double> read_gauge(World<3>&, const GaugeOptions&);
 

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "output/summary.hpp"
 #include "run/world.hpp"
 
 namespace mudlark {
@@ -14,5 +15,9 @@ std::vector<std::string> gauge_columns(const GaugeOptions& gauge, int dimension)
 /// Throws InputError when a material gauge lies where no soil started.
 template <int D>
 std::vector<double> read_gauge(World<D>& world, const GaugeOptions& gauge);
+
+/// Place, rotation, velocity, force and moment of the rigid bodies.
+template <int D>
+std::vector<SolidSummary> describe_solids(World<D>& world);
 
 }  // namespace mudlark

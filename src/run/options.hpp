@@ -22,24 +22,30 @@ struct TimeOptions {
 };
 
 enum class GaugeQuantity {
-  water_level,       ///< height of the water surface in the column through `at` [m]
-  pressure,          ///< of the flow at `at` [Pa]
-  velocity,          ///< of the flow at `at`, one column per axis [m/s]
-  front,             ///< largest x that water reaches [m] (no `at`)
-  total_water,       ///< volume of free-flow water [m^D] (no `at`)
-  kinetic_energy,    ///< of water and soil [J] (J/m in 2D) (no `at`)
-  max_speed,         ///< largest speed of the water [m/s] (no `at`)
-  settlement,        ///< downward displacement of the material that started at `at` [m]
-  displacement,      ///< of the material that started at `at`, one column per axis [m]
-  pore_pressure,     ///< of the material that started at `at` [Pa]
-  effective_stress,  ///< xx, yy, zz, zx of the material that started at `at` [Pa]
-  point_porosity,    ///< of the material that started at `at` [-]
+  water_level,         ///< height of the water surface in the column through `at` [m]
+  pressure,            ///< of the flow at `at` [Pa]
+  velocity,            ///< of the flow at `at`, one column per axis [m/s]
+  front,               ///< largest x that water reaches [m] (no `at`)
+  total_water,         ///< volume of free-flow water [m^D] (no `at`)
+  kinetic_energy,      ///< of water and soil [J] (J/m in 2D) (no `at`)
+  max_speed,           ///< largest speed of the water [m/s] (no `at`)
+  settlement,          ///< downward displacement of the material that started at `at` [m]
+  displacement,        ///< of the material that started at `at`, one column per axis [m]
+  pore_pressure,       ///< of the material that started at `at` [Pa]
+  effective_stress,    ///< xx, yy, zz, zx of the material that started at `at` [Pa]
+  point_porosity,      ///< of the material that started at `at` [-]
+  solid_force,         ///< of the soil on a rigid body, mean over the last outer step [N]
+  solid_moment,        ///< of the same about the body's centre [N m]
+  solid_displacement,  ///< of a rigid body's centre since the start [m]
+  solid_rotation,      ///< of a rigid body since the start [rad]
+  solid_velocity,      ///< of a rigid body's centre [m/s]
 };
 
 struct GaugeOptions {
   std::string name;
   GaugeQuantity quantity = GaugeQuantity::water_level;
   Point3 at{};
+  std::string of;      ///< name of the rigid body
   double every = 0.0;  ///< [s]; 0: every outer step
 };
 

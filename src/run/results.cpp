@@ -105,6 +105,22 @@ class PointTable {
   std::vector<State> states_;
 };
 
+/// How much of each cell rigid bodies fill, from the distance of its centre to their surface.
+template <int D>
+CellField<D> solid_share(World<D>& world) {
+  const Grid<D>& grid = world.grid();
+  CellField<D> share(grid, "solid", "1");
+  for_each(grid.owned(), [&](const Index<D>& cell) {
+    const Point3 centre = to_point3(grid.cell_centre(cell));
+    for (const Solid& solid : world.soil()->solids()) {
+      if (!solid.near(centre, grid.smallest_spacing())) continue;
+      const double away = solid.distance(centre).distance / grid.smallest_spacing();
+      share[cell] = std::max(share[cell], std::clamp(0.5 - away, 0.0, 1.0));
+    }
+  });
+  return share;
+}
+
 /// Work by name [J]; what is left between them is what transfers and time steps take.
 template <int D>
 std::vector<std::pair<std::string, double>> soil_energy(SoilSolver<D>& soil) {
@@ -162,6 +178,9 @@ void Results<D>::write_fields(World<D>& world) {
     faces = {&flow->velocity()};
   }
   cells.push_back(&world.medium().porosity);
+  std::optional<CellField<D>> solid;
+  if (world.soil() && !world.soil()->solids().empty())
+    cells.push_back(&solid.emplace(solid_share(world)));
   fields_->write(world.clock().time(), world.clock().step(), cells, faces);
   if (!world.soil()) return;
   const PointTable<D> table(*world.soil());
@@ -218,6 +237,7 @@ Summary Results<D>::describe(World<D>& world) const {
   summary.conservation_errors = conservation_errors(world);
   if (world.soil() && !world.soil()->is_implicit())
     summary.soil_energy = soil_energy(*world.soil());
+  summary.solids = describe_solids(world);
   for (const GaugeWriter& gauge : gauges_)
     summary.gauges.push_back({gauge.name(), gauge.columns(), gauge.extremes()});
   summary.peak_memory_bytes = peak_memory(world.grid().comm());

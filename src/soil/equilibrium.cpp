@@ -26,6 +26,8 @@ void SoilSolver<D>::find_equilibrium() {
   const double damping = options_.damping;
   const auto water_damping = options_.water_damping;
   options_.damping = start.damping, options_.water_damping.reset();
+  solids_wait_ = true;
+  for (Solid& solid : solids_) solid.stop();
   Statics statics;
   double elapsed = 0.0;
   do {
@@ -44,6 +46,8 @@ void SoilSolver<D>::find_equilibrium() {
     statics = *this->statics();
   } while (!statics.at_rest(start.rest));
   options_.damping = damping, options_.water_damping = water_damping;
+  solids_wait_ = false;
+  for (Solid& solid : solids_) solid.start(start.reset_displacements);
   for (auto& points : points_) {
     set_zero(points.velocity), set_zero(points.water_velocity);
     set_zero(points.affine), set_zero(points.water_affine);

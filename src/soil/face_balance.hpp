@@ -54,24 +54,31 @@ class FaceBalance {
     const double grains = sums_.grain_momentum / sums_.grain_mass;
     return {grains, dry_ ? grains : sums_.water_momentum / sums_.water_mass};
   }
-  /// Under the forces in the sums, less local damping (Cundall 1987): a share of the unbalanced
-  /// force against the motion, each phase by itself.
+  /// Under the forces in the sums, without damping.
   PhaseVelocity moved() const {
-    const PhaseVelocity before = old();
     const double water_force = porosity_ * sums_.water_force;
     const double grain_force = sums_.mixture_force - water_force;
     if (quasi_static_water()) {
       const double change = dt_ * sums_.mixture_force / (grain_mass_ + water_mass_);
-      const double grains = damped(options_.damping, before.grains + change, before.grains);
+      const double grains = old().grains + change;
       return {grains, grains + slip(dt_ * water_force, change)};
     }
-    PhaseVelocity now = solve(options_.mass_scaling * sums_.grain_momentum + dt_ * grain_force,
-                              options_.mass_scaling * sums_.water_momentum + dt_ * water_force);
-    now.grains = damped(options_.damping, now.grains, before.grains);
-    now.water =
-        dry_ ? now.grains
-             : damped(options_.water_damping.value_or(options_.damping), now.water, before.water);
-    return now;
+    return solve(options_.mass_scaling * sums_.grain_momentum + dt_ * grain_force,
+                 options_.mass_scaling * sums_.water_momentum + dt_ * water_force);
+  }
+  /// Less local damping (Cundall 1987): a share of the unbalanced force against the motion, each
+  /// phase by itself; in u-p water goes with the grains.
+  PhaseVelocity damped(const PhaseVelocity& now, const PhaseVelocity& before) const {
+    PhaseVelocity left = now;
+    left.grains = damped(options_.damping, now.grains, before.grains);
+    if (dry_)
+      left.water = left.grains;
+    else if (quasi_static_water())
+      left.water += left.grains - now.grains;
+    else
+      left.water =
+          damped(options_.water_damping.value_or(options_.damping), now.water, before.water);
+    return left;
   }
   /// Change of velocity per impulse of pore pressure on the whole face [m/s per N s].
   PhaseVelocity answer() const {

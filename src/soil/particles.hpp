@@ -40,6 +40,7 @@ struct SoilParticles {
   bool carries_affine = false;        ///< set once, by the transfer in use
   bool carries_deformation = false;   ///< set once, by the strain measure in use
   bool carries_extent = false;        ///< set once, where points that stretch are split
+  bool carries_contact = false;       ///< set once, where there are rigid bodies
   std::vector<std::int64_t> id;       ///< unique in the whole case
   PointQuantity<D> position;          ///< [m]
   PointQuantity<D> start;             ///< position at time zero [m]
@@ -53,6 +54,8 @@ struct SoilParticles {
   /// F diag(l^2) F^T of the lattice's spacing l, xx zz zx or xx yy zz xy yz zx [m2]: the square of
   /// the space that a point stands for.
   PointQuantity<D*(D + 1) / 2> extent;
+  /// Of rigid bodies in the last step [N], and between water and grains along the normal there.
+  PointQuantity<D + 1> contact_force;
   std::vector<double> pore_pressure;  ///< [Pa], compression positive
   std::vector<double> grain_mass;     ///< [kg]
   std::vector<double> volume;         ///< bulk volume now [m^D]
@@ -94,6 +97,7 @@ struct SoilParticles {
     f("elastic state", "1", 6, elastic.component.data());
     if (carries_deformation) f("deformation gradient", "1", D * D, deformation.component.data());
     if (carries_extent) f("extent", "m2", D * (D + 1) / 2, extent.component.data());
+    if (carries_contact) f("contact force", "N", D + 1, contact_force.component.data());
     f("pore pressure", "Pa", 1, &pore_pressure);
     f("grain mass", "kg", 1, &grain_mass);
     f("volume", "m^D", 1, &volume);

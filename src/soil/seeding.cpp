@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/errors.hpp"
@@ -83,8 +84,10 @@ double lateral_coefficient(const SoilBody& body, const GeostaticStress& geostati
 
 template <int D>
 SoilParticles<D> seed_points(const Grid<D>& grid, const SoilBody& body, std::size_t body_number,
-                             Transfer transfer, bool with_extent) {
+                             Transfer transfer, bool with_extent,
+                             std::span<const SolidOptions> solids) {
   SoilParticles<D> points;
+  points.carries_contact = !solids.empty();
   points.carries_affine = transfer == Transfer::apic;
   points.carries_deformation = body.strain == StrainMeasure::small;
   points.carries_extent = with_extent;
@@ -99,7 +102,9 @@ SoilParticles<D> seed_points(const Grid<D>& grid, const SoilBody& body, std::siz
       const Vec<D> x = lattice_point(grid, cell, sub, m);
       const std::int64_t id = number;
       number += 64;
-      if (!body.shape.contains(to_point3(x))) return;
+      const Point3 place = to_point3(x);
+      const auto holds = [&](const SolidOptions& solid) { return solid.shape.contains(place); };
+      if (!body.shape.contains(place) || std::any_of(solids.begin(), solids.end(), holds)) return;
       const std::size_t p = points.size();
       points.resize(p + 1);
       points.id[p] = id;
@@ -149,8 +154,10 @@ void set_initial_stress(const Grid<D>& grid, const SoilOptions& options,
   }
 }
 
-template SoilParticles<2> seed_points(const Grid<2>&, const SoilBody&, std::size_t, Transfer, bool);
-template SoilParticles<3> seed_points(const Grid<3>&, const SoilBody&, std::size_t, Transfer, bool);
+template SoilParticles<2> seed_points(const Grid<2>&, const SoilBody&, std::size_t, Transfer, bool,
+                                      std::span<const SolidOptions>);
+template SoilParticles<3> seed_points(const Grid<3>&, const SoilBody&, std::size_t, Transfer, bool,
+                                      std::span<const SolidOptions>);
 template void set_initial_stress(const Grid<2>&, const SoilOptions&,
                                  std::vector<SoilParticles<2>>&);
 template void set_initial_stress(const Grid<3>&, const SoilOptions&,

@@ -1,5 +1,6 @@
 #pragma once
 /// Material points and their initial state from the bodies of a case.
+#include <span>
 #include <vector>
 
 #include "grid/grid.hpp"
@@ -9,12 +10,13 @@
 namespace mudlark {
 
 /// Points of one body on this rank: a regular lattice of points_per_cell points in every cell, kept
-/// where the point lies in the body's shape. Each carries an equal share of the cell's volume. Sets
-/// position, masses, volumes and initial velocity, and their extent if asked for; ids are unique in
-/// the case and do not depend on ranks.
+/// where the point lies in the body's shape and in no rigid body. Each carries an equal share of
+/// the cell's volume. Sets position, masses, volumes and initial velocity, and their extent if
+/// asked for; ids are unique in the case and do not depend on ranks.
 template <int D>
 SoilParticles<D> seed_points(const Grid<D>& grid, const SoilBody& body, std::size_t body_number,
-                             Transfer transfer, bool with_extent = false);
+                             Transfer transfer, bool with_extent = false,
+                             std::span<const SolidOptions> solids = {});
 
 /// Initial stress and pore pressure of the points of all bodies.
 /// Geostatic: along each vertical line of the lattice the submerged weight of what lies above is

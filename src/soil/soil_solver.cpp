@@ -24,6 +24,8 @@ namespace {
 
 /// Points may go this far between visits to their owners, in cells: the ghost layers hold no more.
 constexpr double longest_travel = 0.9;
+/// The same where contacts lie up to half a cell beside the points.
+constexpr double longest_travel_with_solids = 0.45;
 /// Points whose state is updated together; their arrays fit into the second-level cache.
 constexpr std::size_t points_per_block = 1024;
 /// No point is split in a cell that holds so many times the points of a full one.
@@ -76,6 +78,17 @@ SoilSolver<D>::SoilSolver(const Grid<D>& grid, const SoilOptions& options)
                                    body.name, laws_.back()->name()));
   }
   if (options.formulation != Formulation::u_w && two_phase()) projection_.emplace(grid, options_);
+  if (options.solids.empty()) return;
+  if (is_implicit())
+    throw InputError(
+        "[[solid]] needs soil_solver.method = \"explicit\": implicit steps know no contact.");
+  if (projection_)
+    throw InputError(
+        "[[solid]] needs formulation = \"u-w\": the pore pressure of u-w-p and u-p does not know "
+        "that bodies are impermeable.");
+  for (const SolidOptions& solid : options.solids)
+    solids_.emplace_back(solid, D, to_point3(grid.gravity()), options.mass_scaling);
+  solid_contact_.emplace(grid, options);
 }
 
 template <int D>
@@ -83,7 +96,8 @@ void SoilSolver<D>::initialise() {
   points_.clear();
   for (std::size_t b = 0; b < options_.bodies.size(); ++b)
     points_.push_back(seed_points(*grid_, options_.bodies[b], b, options_.transfer,
-                                  options_.split_stretched.has_value()));
+                                  options_.split_stretched || !options_.solids.empty(),
+                                  options_.solids));
   set_initial_stress(*grid_, options_, points_);
   for (std::size_t b = 0; b < points_.size(); ++b)
     initialise_material_state(points_[b], *laws_[b], options_.bodies[b].strain,
@@ -148,19 +162,22 @@ void SoilSolver<D>::begin_step(double time, double length, const FluidLoad<D>* w
   length_ = length;
   mean_velocity_.fill(0.0);
   surface_.begin_step(time, length, water, active_);
+  for (Solid& solid : solids_) solid.begin_outer_step();
 }
 
 template <int D>
 void SoilSolver<D>::advance(double dt) {
   if (is_implicit()) return advance_implicitly(dt, 0);
-  if (travelled_ > longest_travel) {
+  if (travelled_ > (solid_contact_ ? longest_travel_with_solids : longest_travel)) {
     redistribute();
     surface_.resample(active_);
   }
   sort_strays();
   gather_nodes();
+  for (Solid& solid : solids_) solid.begin_step(time_, dt, solids_wait_);
   solve_nodes(dt);
   update_points(dt);
+  for (Solid& solid : solids_) solid.move(dt);
   time_ += dt;
 }
 
@@ -214,32 +231,44 @@ void SoilSolver<D>::solve_face(const NodeSums& sums, double dt, double face_volu
             balance.flux(now)};
 }
 
-/// Faces whose motion this rank computes itself: its own, and those behind open sides, which are no
-/// mirrors.
+/// Local damping after all else that a face feels: what bodies press with is a part of the
+/// unbalanced force.
 template <int D>
-IndexBox<D> SoilSolver<D>::solved_faces(int axis) const {
-  IndexBox<D> faces = grid_->owned_faces(axis);
-  for (int a = 0; a < D; ++a) {
-    if (grid_->touches(a, 0) && grid_->wall(a, 0) == Wall::open)
-      faces.lower[a] = grid_->local().lower[a];
-    if (grid_->touches(a, 1) && grid_->wall(a, 1) == Wall::open)
-      faces.upper[a] = grid_->local().upper[a];
-  }
-  return faces.intersected(active_);
+void SoilSolver<D>::damp_face(const NodeSums& sums, double dt, NodeMotion& motion) const {
+  if (!carries_motion(sums, grid_->cell_volume())) return;
+  const FaceBalance balance(sums, options_, dt, false);
+  const PhaseVelocity now{motion.grain_velocity, motion.water_velocity};
+  const PhaseVelocity damped =
+      balance.damped(now, {now.grains - motion.grain_change, now.water - motion.water_change});
+  motion.grain_velocity = damped.grains, motion.water_velocity = damped.water;
+  motion.grain_change += damped.grains - now.grains;
+  motion.water_change += damped.water - now.water;
+  motion.total_flux = balance.flux(damped);
 }
 
 template <int D>
 void SoilSolver<D>::solve_nodes(double dt) {
   if (projection_) projection_->add_last_rise(dt, sums_);
+  const bool damps_at_once =
+      !solid_contact_ && (options_.damping > 0.0 || options_.water_damping.value_or(0.0) > 0.0);
   for (int d = 0; d < D; ++d) {
     const auto u = static_cast<std::size_t>(d);
     const double volume = grid_->cell_volume();
     const NodeSums* sums = sums_[u].data();
     NodeMotion* motion = motion_[u].data();
-    for_each(solved_faces(d), [&](const Index<D>& face) {
+    for_each(solved_faces(*grid_, d).intersected(active_), [&](const Index<D>& face) {
       const std::ptrdiff_t at = grid_->offset(face);
       solve_face(sums[at], dt, volume, motion[at]);
+      if (damps_at_once) damp_face(sums[at], dt, motion[at]);
     });
+  }
+  if (solid_contact_) {
+    solid_contact_->apply(dt, constants_, active_, solids_, points_, sums_, motion_);
+    for (int d = 0; d < D; ++d) {
+      const auto u = static_cast<std::size_t>(d);
+      for_each(solved_faces(*grid_, d).intersected(active_),
+               [&](const Index<D>& face) { damp_face(sums_[u][face], dt, motion_[u][face]); });
+    }
   }
   if (!wall_contact_.empty())
     wall_contact_.apply({dt, options_.transfer == Transfer::apic ? 0.0 : options_.flip_fraction,
@@ -253,7 +282,7 @@ void SoilSolver<D>::solve_nodes(double dt) {
     const NodeSums* sums = sums_[static_cast<std::size_t>(d)].data();
     const NodeMotion* motion = motion_[static_cast<std::size_t>(d)].data();
     double* mean = mean_velocity_[d].data();
-    for_each(solved_faces(d), [&](const Index<D>& face) {
+    for_each(solved_faces(*grid_, d).intersected(active_), [&](const Index<D>& face) {
       const std::ptrdiff_t at = grid_->offset(face);
       mean[at] += dt / length_ * motion[at].grain_velocity;
       const double water_change =

@@ -14,6 +14,7 @@
 #include "soil/options.hpp"
 #include "soil/particles.hpp"
 #include "soil/pore_projection.hpp"
+#include "soil/solid_contact.hpp"
 #include "soil/statics.hpp"
 #include "soil/surface_load.hpp"
 #include "soil/transfer.hpp"
@@ -68,6 +69,8 @@ class SoilSolver {
   bool two_phase() const;
   /// What the formulation cannot do in these soils, in words; the same on all ranks. Collective.
   std::vector<std::string> warnings() const;
+  /// Rigid bodies, the same on all ranks.
+  const std::vector<Solid>& solids() const { return solids_; }
   /// Cells around the soil, with the reach of the kernels; within this rank's local box.
   const IndexBox<D>& active() const { return active_; }
 
@@ -109,6 +112,7 @@ class SoilSolver {
     settle_energy();
     energy_.archive(a);
     for (std::size_t b = 0; b < points_.size(); ++b) points_[b].archive(a, options_.bodies[b].name);
+    for (Solid& solid : solids_) solid.archive(a);
     a.number("soil/removed grain mass", removed_grain_mass_);
     a.number("soil/time", time_);
     a.number("soil/next implicit step", next_step_);
@@ -116,11 +120,11 @@ class SoilSolver {
   }
 
  private:
-  IndexBox<D> solved_faces(int axis) const;
   bool exchanges_halos() const;
   void gather_nodes();
   void solve_nodes(double dt);
   void solve_face(const NodeSums& sums, double dt, double face_volume, NodeMotion& motion) const;
+  void damp_face(const NodeSums& sums, double dt, NodeMotion& motion) const;
   void update_points(double dt);
   std::size_t update_block(std::size_t body, PointRange block, double dt);
   void sort_strays();
@@ -139,6 +143,8 @@ class SoilSolver {
   SurfaceLoads<D> surface_;
   WallContact<D> wall_contact_;
   std::optional<PoreProjection<D>> projection_;  ///< where pore pressure is found implicitly
+  std::vector<Solid> solids_;
+  std::optional<SolidContact<D>> solid_contact_;  ///< where there are any
   NodeField<NodeSums, D> sums_;
   NodeField<NodeMotion, D> motion_;
   CellField<D> occupied_;
@@ -149,6 +155,7 @@ class SoilSolver {
   double time_ = 0.0;
   double travelled_ = 0.0;  ///< bound on how far any point moved since redistribute(), in cells
   double removed_grain_mass_ = 0.0;
+  bool solids_wait_ = false;   ///< given motion has not begun
   SoilEnergy energy_;          ///< up to the open outer step, over all ranks
   SoilEnergy recent_energy_;   ///< of this rank since then
   double next_step_ = 0.0;     ///< that the last implicit step recommends [s]

@@ -46,9 +46,12 @@ double SoilSolver<D>::squared_force_on_free_faces() {
   for (int d = 0; d < D; ++d) {
     const auto held = [&](int side) { return closed(grid_->wall(d, side)); };
     const NodeSums* sums = sums_[static_cast<std::size_t>(d)].data();
+    // Bodies press on soil from outside, as loads do: as hard as in the last step.
     for_each(grid_->owned_faces(d).intersected(active_), [&](const Index<D>& face) {
       if ((face[d] == 0 && held(0)) || (face[d] == grid_->cells()[d] && held(1))) return;
-      const double force = sums[grid_->offset(face)].mixture_force;
+      const std::ptrdiff_t at = grid_->offset(face);
+      const double solid = solid_contact_ ? solid_contact_->force(d, at) : 0.0;
+      const double force = sums[at].mixture_force + solid;
       sum += force * force;
     });
   }

@@ -62,6 +62,18 @@ void fold_cells(const Grid<D>& grid, const IndexBox<D>& box, CellField<D>& field
   });
 }
 
+template <int D>
+IndexBox<D> solved_faces(const Grid<D>& grid, int axis) {
+  IndexBox<D> faces = grid.owned_faces(axis);
+  for (int a = 0; a < D; ++a) {
+    if (grid.touches(a, 0) && grid.wall(a, 0) == Wall::open) faces.lower[a] = grid.local().lower[a];
+    if (grid.touches(a, 1) && grid.wall(a, 1) == Wall::open) faces.upper[a] = grid.local().upper[a];
+  }
+  return faces;
+}
+
+template IndexBox<2> solved_faces(const Grid<2>&, int);
+template IndexBox<3> solved_faces(const Grid<3>&, int);
 template void fold_into_domain(const Grid<2>&, const IndexBox<2>&, NodeField<NodeSums, 2>&);
 template void fold_into_domain(const Grid<3>&, const IndexBox<3>&, NodeField<NodeSums, 3>&);
 template void mirror_motion(const Grid<2>&, const IndexBox<2>&, NodeField<NodeMotion, 2>&);

@@ -17,6 +17,11 @@ void fold_into_domain(const Grid<D>& grid, const IndexBox<D>& box, NodeField<Nod
 template <int D>
 void mirror_motion(const Grid<D>& grid, const IndexBox<D>& box, NodeField<NodeMotion, D>& nodes);
 
+/// Faces whose motion this rank computes itself: its own, and those behind open sides, which are no
+/// mirrors.
+template <int D>
+IndexBox<D> solved_faces(const Grid<D>& grid, int axis);
+
 /// The same fold for a scalar at cell centres.
 template <int D>
 void fold_cells(const Grid<D>& grid, const IndexBox<D>& box, CellField<D>& field);

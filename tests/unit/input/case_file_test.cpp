@@ -54,7 +54,7 @@ courant = 0.25
 bulk_modulus = "2.15e4 kPa"
 [[water.body]]
 shape = { difference = [ { box = { lower = [0, 0], upper = [0.1, 1.8] } }, { circle = { centre = [0.05, 1.5], radius = "1 cm" } } ] }
-velocity = ["0.1*z", 0]
+velocity = ["0.1*z", "0.3*x"]
 [[soil]]
 name = "column"
 shape = { polygon = { corners = [[0, 0], [0.1, 0], [0.1, 1], [0, 1]] } }
@@ -89,6 +89,7 @@ TEST_F(CaseFile, BecomesOptionsInSiUnits) {
   EXPECT_EQ(options.soil->courant, 0.25);
   EXPECT_EQ(options.soil->water_bulk_modulus, 2.15e7);
   EXPECT_DOUBLE_EQ(options.flow->bodies[0].velocity[0]({0, 0, 2.0}, 0.0), 0.2);
+  EXPECT_DOUBLE_EQ(options.flow->bodies[0].velocity[2]({2.0, 0, 0}, 0.0), 0.6);
   const SoilBody& soil = options.soil->bodies.at(0);
   EXPECT_DOUBLE_EQ(soil.intrinsic_permeability, 1e-6 * 1.002e-3 / 9810.0);
   EXPECT_EQ(soil.strain, StrainMeasure::logarithmic);

@@ -1,0 +1,110 @@
+#pragma once
+/// One rigid body: where it is, how it moves, what the soil does to it.
+#include <Eigen/Geometry>
+
+#include "grid/shape_distance.hpp"
+#include "soil/solid_options.hpp"
+
+namespace mudlark {
+
+/// Always in three dimensions; in the plane the axes are x and z, and rotation is about y. All
+/// ranks hold the same bodies and move them alike.
+class Solid {
+ public:
+  using Vector = Eigen::Vector3d;
+
+  /// `inertia_factor` scales inertia but not weight (mass scaling of the soil). Throws InputError
+  /// when a free body has no volume to take mass, inertia or centre from.
+  Solid(const SolidOptions& options, int dimension, const Point3& gravity, double inertia_factor);
+
+  const SolidOptions& options() const { return options_; }
+  /// Within a box around the body that has `reach` [m] to spare on each side?
+  bool near(const Point3& place, double reach) const;
+  /// Smallest box around the body where it is now.
+  const BoxShape& box() const { return box_; }
+  SurfaceDistance distance(const Point3& place) const;
+  Vector velocity_at(const Vector& place) const { return velocity_ + spin_.cross(place - centre_); }
+  /// Largest speed of its surface [m/s]; infinite for a shape without end that turns.
+  double largest_speed() const;
+
+  /// Opens an outer step: force and moment are means over it.
+  void begin_outer_step();
+  /// Velocity in a step of dt [s] from `time` on, without the soil. `held`: given motion waits.
+  void begin_step(double time, double dt, bool held);
+  /// Velocity with an impulse [N s] and its moment about the centre [N m s] by the soil.
+  void set_impulse(const Vector& impulse, const Vector& moment);
+  /// Moves with the present velocity, and books the impulse.
+  void move(double dt);
+  /// Stands still, until the forces on it or start() move it.
+  void stop();
+  /// Takes on its velocity of time zero; counts displacement and rotation from here where asked.
+  void start(bool reset_displacement);
+
+  /// Largest velocity per impulse, and angular velocity per moment; zero for given motion.
+  double mobility() const { return mobility_; }
+  double turning_mobility() const { return turning_mobility_; }
+  bool free() const { return std::holds_alternative<FreeSolid>(options_.motion); }
+
+  const Vector& centre() const { return centre_; }
+  Vector displacement() const { return centre_ - origin_; }  ///< since the start [m]
+  /// Since the start [rad]: rotation vector, in the plane (0, -angle, 0) with the angle
+  /// counter-clockwise.
+  Vector rotation() const;
+  const Eigen::Quaterniond& turn() const { return turn_; }  ///< from the shape as given
+  const Vector& velocity() const { return velocity_; }      ///< of the centre [m/s]
+  const Vector& spin() const { return spin_; }              ///< [rad/s]
+  double mass() const { return mass_; }                     ///< [kg]; 0 for given motion
+  /// Of the soil on the body, mean over the outer step [N]; its moment about the centre [N m].
+  Vector force() const { return elapsed_ > 0.0 ? Vector(impulse_sum_ / elapsed_) : Vector::Zero(); }
+  Vector moment() const { return elapsed_ > 0.0 ? Vector(moment_sum_ / elapsed_) : Vector::Zero(); }
+  double kinetic_energy() const;  ///< [J]
+  Vector momentum() const { return mass_ * velocity_; }
+
+  template <class Archive>
+  void archive(Archive& a) {
+    const std::string at = "solid/" + options_.name + "/";
+    const auto vector = [&](const char* name, Vector& v) {
+      for (int i = 0; i < 3; ++i) a.number(at + name + " " + std::to_string(i), v[i]);
+    };
+    vector("centre", centre_), vector("origin", origin_);
+    vector("velocity", velocity_), vector("spin", spin_), vector("turned", turned_);
+    vector("impulse", impulse_sum_), vector("moment", moment_sum_);
+    a.number(at + "elapsed", elapsed_);
+    for (int i = 0; i < 4; ++i) {
+      a.number(at + "turn " + std::to_string(i), turn_.coeffs()[i]);
+      a.number(at + "first turn " + std::to_string(i), first_turn_.coeffs()[i]);
+    }
+    update_pose();
+  }
+
+ private:
+  void set_mass(const FreeSolid& motion, const std::optional<SolidVolume>& volume);
+  void begin_prescribed_step(const PrescribedSolid& motion, double time, double dt);
+  void begin_free_step(const FreeSolid& motion, double time, double dt);
+  void update_pose();
+  Vector planar_rotation(const std::array<double, 3>& given) const;
+
+  SolidOptions options_;
+  int dimension_;
+  Vector gravity_, start_centre_;
+  double inertia_factor_, mass_ = 0.0, mobility_ = 0.0, turning_mobility_ = 0.0;
+  Vector free_axes_ = Vector::Zero();                  ///< 1 where translation is free
+  Eigen::Matrix3d inertia_ = Eigen::Matrix3d::Zero();  ///< in the shape's frame [kg m2]
+  Eigen::Matrix3d inertia_now_ = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d turning_ = Eigen::Matrix3d::Zero();  ///< inverse of it on the free axes
+  Vector centre_, origin_, velocity_ = Vector::Zero(), spin_ = Vector::Zero();
+  Vector predicted_velocity_ = Vector::Zero(), predicted_spin_ = Vector::Zero();
+  Vector turned_ = Vector::Zero();  ///< sum of the rotations of all steps [rad]
+  Eigen::Quaterniond turn_ = Eigen::Quaterniond::Identity();
+  Eigen::Quaterniond first_turn_ = Eigen::Quaterniond::Identity();
+  Vector impulse_ = Vector::Zero(), moment_ = Vector::Zero();  ///< of the present step
+  Vector impulse_sum_ = Vector::Zero(), moment_sum_ = Vector::Zero();
+  double elapsed_ = 0.0;  ///< of the outer step [s]
+  bool turned_at_all_ = false;
+  BoxShape box_;
+};
+
+inline Eigen::Vector3d to_vector(const Point3& p) { return {p[0], p[1], p[2]}; }
+inline Point3 to_point(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
+
+}  // namespace mudlark

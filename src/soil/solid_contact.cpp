@@ -1,0 +1,534 @@
+#include "soil/solid_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "soil/mirror.hpp"
+#include "soil/point_stencil.hpp"
+#include "soil/walls.hpp"
+
+namespace mudlark {
+namespace {
+
+/// Sweeps per step; what they leave is taken up by those of the next steps.
+constexpr int sweeps = 4;
+/// Gap up to which a point is watched, in point spacings.
+constexpr double watched_gap = 0.1;
+/// Faces with less than this share of a cell's volume have no soil.
+constexpr double lightest_face = 1e-12;
+/// Contacts with less than this share of their weights on faces with soil are none.
+constexpr double smallest_sum = 0.1;
+
+/// The axis of space that an axis of the problem is.
+template <int D>
+constexpr int axis_in_space(int axis) {
+  return D == 2 && axis == 1 ? 2 : axis;
+}
+template <int D>
+Vec<D> to_axes(const Eigen::Vector3d& v) {
+  Vec<D> out;
+  for (int a = 0; a < D; ++a) out[a] = v[axis_in_space<D>(a)];
+  return out;
+}
+template <int D>
+Eigen::Vector3d to_space(const Vec<D>& v) {
+  Eigen::Vector3d out = Eigen::Vector3d::Zero();
+  for (int a = 0; a < D; ++a) out[axis_in_space<D>(a)] = v[a];
+  return out;
+}
+
+/// Share of the grains in the pressure on a surface.
+template <int D>
+double effective_share(const SoilParticles<D>& points, std::size_t p, const Vec<D>& normal,
+                       double pore_pressure) {
+  const SymTensor stress = get_tensor(points.stress, p);
+  double pressed = 0.0;
+  for (int i = 0; i < D; ++i)
+    for (int j = 0; j < D; ++j) pressed -= normal[i] * stress.template between<D>(i, j) * normal[j];
+  pressed = std::max(0.0, pressed);
+  const double whole = pressed + std::max(0.0, pore_pressure);
+  return whole > 0.0 ? pressed / whole : 1.0;
+}
+
+/// How far a point reaches along a normal, from its extent (that of the lattice, deformed with the
+/// soil) [m]; at most a cell, as ghost layers end there.
+template <int D>
+double thickness_of(const SoilParticles<D>& points, std::size_t p, const Vec<D>& normal,
+                    double cell) {
+  SymTensor extent;
+  const auto& e = points.extent;
+  if constexpr (D == 2)
+    extent = {e[0][p], 0.0, e[1][p], 0.0, 0.0, e[2][p]};
+  else
+    extent = get_tensor(e, p);
+  double squared = 0.0;
+  for (int i = 0; i < D; ++i)
+    for (int j = 0; j < D; ++j) squared += normal[i] * extent.template between<D>(i, j) * normal[j];
+  return std::clamp(std::sqrt(std::max(0.0, squared)), 0.1 * cell, cell);
+}
+
+/// Part of a trial impulse that is allowed: pressure, or as much pull as there is suction, and
+/// along the surface at most friction times pressure and the adhesion (Coulomb).
+template <int D, class Contact>
+Vec<D> bounded(const Vec<D>& trial, const Contact& contact) {
+  const double along = dot(trial, contact.normal), pressed = std::max(-contact.suction, along);
+  const double largest = contact.adhesion + (pressed > 0.0 ? contact.friction * pressed : 0.0);
+  Vec<D> tangent = trial - along * contact.normal;
+  const double size = norm(tangent);
+  if (size > largest) tangent *= largest / size;
+  return pressed * contact.normal + tangent;
+}
+
+}  // namespace
+
+template <int D>
+SolidContact<D>::SolidContact(const Grid<D>& grid, const SoilOptions& options)
+    : grid_(&grid),
+      kernel_(options.kernel),
+      inertia_(options.mass_scaling),
+      exchanges_(grid.ranks() > 1),
+      wet_(std::any_of(
+          options.bodies.begin(), options.bodies.end(),
+          [](const SoilBody& body) { return body.pore_water == PoreWater::two_phase; })),
+      halo_(grid),
+      velocity_(grid, "contact velocity", "m/s"),
+      slip_(grid, "contact slip of water", "m/s"),
+      mobility_(grid, "contact mobility", "1/kg"),
+      cross_mobility_(grid, "contact mobility between phases", "1/kg"),
+      slip_mobility_(grid, "contact mobility of slip", "1/kg"),
+      impulse_(grid, "contact impulse", "N s"),
+      seal_(grid, "sealing impulse", "N s"),
+      total_impulse_(grid, "contact impulse of all sweeps", "N s"),
+      total_seal_(grid, "sealing impulse of all sweeps", "N s"),
+      force_(grid, "contact force", "N") {
+  for (int a = 0; a < D; ++a) exchanges_ = exchanges_ || grid.periodic(a);
+}
+
+/// Faces that contacts may reach: the bodies' boxes and a kernel around them. Ranks that exchange
+/// ghosts may find a neighbour's impulses anywhere in theirs.
+template <int D>
+void SolidContact<D>::set_box(const std::vector<Solid>& solids, const IndexBox<D>& active) {
+  box_ = active;
+  if (exchanges_) return;
+  for (int a = 0; a < D; ++a) {
+    const auto u = static_cast<std::size_t>(axis_in_space<D>(a));
+    double lower = std::numeric_limits<double>::infinity(), upper = -lower;
+    for (const Solid& solid : solids) {
+      lower = std::min(lower, solid.box().lower[u]);
+      upper = std::max(upper, solid.box().upper[u]);
+    }
+    const double first = (lower - grid_->lower()[a]) / grid_->spacing()[a] - 2 * ghost_layers;
+    const double last = (upper - grid_->lower()[a]) / grid_->spacing()[a] + 2 * ghost_layers;
+    box_.lower[a] = static_cast<int>(std::clamp<double>(first, box_.lower[a], box_.upper[a]));
+    box_.upper[a] = static_cast<int>(std::clamp<double>(last, box_.lower[a], box_.upper[a]));
+  }
+}
+
+template <int D>
+template <class F>
+void SolidContact<D>::for_each_face(int axis, F&& f) const {
+  for_each(solved_faces(*grid_, axis).intersected(box_),
+           [&](const Index<D>& face) { f(grid_->offset(face)); });
+}
+
+/// Calls f(offset, weight) for the faces of one component around a contact.
+template <int D>
+template <class F>
+void SolidContact<D>::for_each_node(int axis, const Contact& contact, F&& f) const {
+  const auto u = static_cast<std::size_t>(axis);
+  for (std::size_t i = contact.nodes[u]; i < contact.nodes[u + 1]; ++i)
+    f(nodes_[i].at, nodes_[i].weight);
+}
+
+template <int D>
+void SolidContact<D>::clear(FaceVector<D>& field) {
+  for (int d = 0; d < D; ++d) {
+    double* values = field[d].data();
+    for_each(box_, [&](const Index<D>& face) { values[grid_->offset(face)] = 0.0; });
+  }
+}
+
+/// Sums that lie in ghosts and behind closed walls go to the faces that they belong to.
+template <int D>
+void SolidContact<D>::gather_sums(FaceVector<D>& field, bool signs) {
+  if (exchanges_) {
+    std::array<double*, D> all{};
+    for (int d = 0; d < D; ++d) all[static_cast<std::size_t>(d)] = field[d].data();
+    halo_.add_to_owners(all);
+  }
+  for_each_closed_wall(*grid_, [&](int axis, int side, Wall wall) {
+    for (int d = 0; d < D; ++d) {
+      const double sign = signs ? parity(d, axis, wall) : 1.0;
+      for_each_mirror_pair(*grid_, box_, axis, side, d == axis,
+                           [&](const Index<D>& behind, const Index<D>& before) {
+                             field[d][before] += sign * field[d][behind];
+                           });
+    }
+  });
+}
+
+/// Gives ghosts and places behind closed walls their values.
+template <int D>
+void SolidContact<D>::complete(FaceVector<D>& field, bool signs) {
+  for_each_closed_wall(*grid_, [&](int axis, int side, Wall wall) {
+    for (int d = 0; d < D; ++d) {
+      const double sign = signs ? parity(d, axis, wall) : 1.0;
+      for_each_mirror_pair(*grid_, box_, axis, side, d == axis,
+                           [&](const Index<D>& behind, const Index<D>& before) {
+                             field[d][behind] = sign * field[d][before];
+                           });
+    }
+  });
+  if (exchanges_) halo_.exchange(field);
+}
+
+/// Does a point touch the body, or may it in this step? Sets all that depends on their places. For
+/// adhesion a point covers its volume over its thickness of the surface, fading from half a
+/// thickness away to one and a half, so that rows and random points alike cover it once.
+template <int D>
+bool SolidContact<D>::touch(double dt, const Solid& solid, const SoilParticles<D>& points,
+                            Contact& contact) const {
+  const std::size_t p = contact.point;
+  const double volume = points.volume[p];
+  const Vec<D> position = points.position_of(p);
+  const SurfaceDistance surface = solid.distance(to_point3(position));
+  contact.normal = to_axes<D>(to_vector(surface.normal));
+  const double thickness = thickness_of(points, p, contact.normal, grid_->smallest_spacing());
+  const double gap = surface.distance - 0.5 * thickness;
+  const double adhesion = solid.options().adhesion;
+  if (gap > (adhesion > 0.0 ? 1.0 : watched_gap) * thickness) return false;
+  contact.place = position - 0.5 * thickness * contact.normal;
+  contact.thickness = thickness;
+  contact.approach = std::max(0.0, gap) / dt;
+  const double area = volume / thickness;
+  contact.adhesion = dt * adhesion * area * std::clamp(1.0 - gap / thickness, 0.0, 1.0);
+  contact.friction = solid.options().friction;
+  if (!contact.wet) return true;
+  const double pressure = points.pore_pressure[p];
+  contact.suction = dt * area * std::max(0.0, -pressure);
+  contact.friction *= effective_share(points, p, contact.normal, pressure);
+  return true;
+}
+
+/// The faces that hear of a contact, and how much: the edge of a point moves as the place half a
+/// thickness into the soil does, less what the point itself stretches,
+/// W(x_p + d/2 n) - d n . grad W(x_p).
+/// Forces shared out by these weights meet the stress of the points where the points have it: a
+/// uniform stress stays uniform up to the body. Weights at the edge itself would not, as points sum
+/// up the divergence of stress and do not integrate it; faces that the outermost points hardly
+/// reach would need stresses there that oscillate (decision 0016).
+template <int D>
+void SolidContact<D>::list_nodes(const Vec<D>& position, Contact& contact) {
+  const Vec<D> per_spacing = inverse(grid_->spacing());
+  const Vec<D> deeper = position + 0.5 * contact.thickness * contact.normal;
+  const auto add = [&](std::size_t first, std::ptrdiff_t at, double weight) {
+    if (weight == 0.0) return;
+    for (std::size_t i = first; i < nodes_.size(); ++i)
+      if (nodes_[i].at == at) {
+        nodes_[i].weight += weight;
+        return;
+      }
+    nodes_.push_back({at, weight});
+  };
+  with_kernel(kernel_, [&]<class K>(K) {
+    const PointSplines<D, K> own(in_cells(*grid_, per_spacing, position));
+    const PointSplines<D, K> deep(in_cells(*grid_, per_spacing, deeper));
+    PointSplines<D, K>::template static_for<D>([&]<int Component>() {
+      const std::size_t first = nodes_.size();
+      contact.nodes[Component] = first;
+      deep.template for_each_node<Component>(
+          *grid_, per_spacing,
+          [&](std::ptrdiff_t at, double w, const Vec<D>&, const Vec<D>&) { add(first, at, w); });
+      own.template for_each_node<Component>(
+          *grid_, per_spacing, [&](std::ptrdiff_t at, double, const Vec<D>& g, const Vec<D>&) {
+            add(first, at, -contact.thickness * dot(g, contact.normal));
+          });
+    });
+  });
+  contact.nodes[D] = nodes_.size();
+}
+
+/// Lists the contacts of all points, each with its impulse of the last step for a start.
+template <int D>
+void SolidContact<D>::find(double dt, const std::vector<BodyConstants>& constants,
+                           const std::vector<Solid>& solids,
+                           std::vector<SoilParticles<D>>& bodies) {
+  contacts_.clear(), nodes_.clear();
+  const double reach = 2.0 * grid_->smallest_spacing();
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    SoilParticles<D>& points = bodies[b];
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      const Point3 place = to_point3(points.position_of(p));
+      bool known = false;  // the last step's impulse belongs to one contact
+      for (std::size_t s = 0; s < solids.size(); ++s) {
+        if (!solids[s].near(place, reach)) continue;
+        Contact contact;
+        contact.body = b, contact.point = p, contact.solid = s;
+        contact.wet = constants[b].water_density > 0.0;
+        if (!touch(dt, solids[s], points, contact)) continue;
+        for (int a = 0; a < D && !known; ++a) contact.impulse[a] = dt * points.contact_force[a][p];
+        if (!known) contact.seal = dt * points.contact_force[D][p];
+        known = true;
+        list_nodes(points.position_of(p), contact);
+        contacts_.push_back(contact);
+      }
+    }
+    for (int a = 0; a <= D; ++a)
+      std::fill(points.contact_force[a].begin(), points.contact_force[a].end(), 0.0);
+  }
+}
+
+/// Mobilities are from the inverse of [M_s + dt b, -dt b; -dt b, M_l + dt b] of
+/// SoilSolver::solve_face.
+template <int D>
+void SolidContact<D>::read_faces(double dt, const NodeField<NodeSums, D>& sums,
+                                 const NodeField<NodeMotion, D>& motion) {
+  const double lightest = lightest_face * grid_->cell_volume();
+  for (int d = 0; d < D; ++d) {
+    const auto u = static_cast<std::size_t>(d);
+    for_each_face(d, [&](std::ptrdiff_t at) {
+      const NodeSums& node = sums[u].data()[at];
+      const NodeMotion& face = motion[u].data()[at];
+      double& mobility = mobility_[d].data()[at];
+      double &cross = cross_mobility_[d].data()[at], &slip = slip_mobility_[d].data()[at];
+      mobility = -1.0, cross = slip = 0.0;
+      velocity_[d].data()[at] = face.grain_velocity;
+      slip_[d].data()[at] = face.water_velocity - face.grain_velocity;
+      if (node.volume < lightest) return;
+      const double ms = inertia_ * node.grain_mass, ml = inertia_ * node.water_mass;
+      if (ml <= 0.0) {
+        mobility = 1.0 / ms;
+        return;
+      }
+      const double drag = dt * node.drag, determinant = ms * ml + drag * (ms + ml);
+      mobility = (ml + drag) / determinant;
+      cross = ml / determinant;
+      slip = (ms + ml) / determinant;
+    });
+  }
+  hold_walls();
+  complete(mobility_, false);
+}
+
+/// The faces of closed walls take any impulse and stay where they are.
+template <int D>
+void SolidContact<D>::hold_walls() {
+  for_each_closed_wall(*grid_, [&](int axis, int side, Wall) {
+    IndexBox<D> wall = box_;
+    wall.lower[axis] = side == 0 ? 0 : grid_->cells()[axis];
+    wall.upper[axis] = wall.lower[axis] + 1;
+    for_each(wall.intersected(box_), [&](const Index<D>& face) {
+      velocity_[axis][face] = slip_[axis][face] = 0.0;
+      cross_mobility_[axis][face] = slip_mobility_[axis][face] = 0.0;
+      mobility_[axis][face] = std::min(0.0, mobility_[axis][face]);
+    });
+  });
+}
+
+/// Keeps the faces with soil, makes their weights add up to one, and drops contacts without any.
+template <int D>
+void SolidContact<D>::keep_faces_with_soil() {
+  std::size_t kept = 0, kept_nodes = 0;
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    Contact contact = contacts_[c];
+    const std::size_t start = kept_nodes;
+    bool alone = false;
+    for (int d = 0; d < D; ++d) {
+      const auto u = static_cast<std::size_t>(d);
+      const double* soil = mobility_[d].data();
+      const std::size_t first = kept_nodes;
+      double sum = 0.0;
+      for (std::size_t i = contacts_[c].nodes[u]; i < contacts_[c].nodes[u + 1]; ++i) {
+        if (soil[nodes_[i].at] < 0.0) continue;
+        sum += nodes_[i].weight;
+        nodes_[kept_nodes++] = nodes_[i];
+      }
+      alone = alone || sum < smallest_sum;
+      for (std::size_t i = first; i < kept_nodes; ++i) nodes_[i].weight /= sum;
+      contact.nodes[u] = first, contact.nodes[u + 1] = kept_nodes;
+    }
+    if (alone)
+      kept_nodes = start;
+    else
+      contacts_[kept++] = contact;
+  }
+  contacts_.resize(kept), nodes_.resize(kept_nodes);
+}
+
+/// Puts an impulse on the faces around a contact, and its opposite on the body; the sealing one
+/// stays between water and grains.
+template <int D>
+void SolidContact<D>::give(const Contact& contact, const Vec<D>& impulse, double seal,
+                           const Solid& solid) {
+  for (int d = 0; d < D; ++d) {
+    double *faces = impulse_[d].data(), *seals = seal_[d].data();
+    for_each_node(d, contact, [&](std::ptrdiff_t at, double w) {
+      faces[at] += w * impulse[d];
+      if (contact.wet) seals[at] += w * seal * contact.normal[d];
+    });
+  }
+  const Eigen::Vector3d back = -to_space(impulse);
+  Load& load = loads_[contact.solid];
+  load.impulse += back;
+  load.moment += (to_space(contact.place) - solid.centre()).cross(back);
+}
+
+/// An impulse that every contact may give at once without any of them giving too much: the inverse
+/// of the sum of sizes over a row of the matrix that makes velocities of impulses. Rows so scaled
+/// make Jacobi's iteration converge.
+template <int D>
+void SolidContact<D>::set_stiffness(const std::vector<Solid>& solids) {
+  reduced_.assign(2 * solids.size(), 0.0);
+  for (const Contact& contact : contacts_) {
+    for (int d = 0; d < D; ++d) {
+      double* faces = impulse_[d].data();
+      for_each_node(d, contact, [&](std::ptrdiff_t at, double w) { faces[at] += std::abs(w); });
+    }
+    reduced_[2 * contact.solid] += 1.0;
+    reduced_[2 * contact.solid + 1] +=
+        (to_space(contact.place) - solids[contact.solid].centre()).norm();
+  }
+  gather_sums(impulse_, false);
+  for (int d = 0; d < D; ++d)
+    for_each_face(d, [&](std::ptrdiff_t at) {
+      const double all = impulse_[d].data()[at], cross = cross_mobility_[d].data()[at];
+      total_impulse_[d].data()[at] = all * (std::max(0.0, mobility_[d].data()[at]) + cross);
+      total_seal_[d].data()[at] = all * (slip_mobility_[d].data()[at] + cross);
+    });
+  complete(total_impulse_, false);
+  if (wet_) complete(total_seal_, false);
+  MPI_Allreduce(MPI_IN_PLACE, reduced_.data(), static_cast<int>(reduced_.size()), MPI_DOUBLE,
+                MPI_SUM, grid_->comm());
+  const auto inverse_of = [](double sum) { return sum > 0.0 ? 1.0 / sum : 0.0; };
+  for (Contact& contact : contacts_) {
+    const Solid& solid = solids[contact.solid];
+    const double arm = (to_space(contact.place) - solid.centre()).norm();
+    const double body = solid.mobility() * reduced_[2 * contact.solid] +
+                        solid.turning_mobility() * arm * reduced_[2 * contact.solid + 1];
+    contact.stiffness = inverse_of(largest_sum(total_impulse_, contact) + body);
+    contact.seal_stiffness = contact.wet ? inverse_of(largest_sum(total_seal_, contact)) : 0.0;
+  }
+  for (FaceVector<D>* field : {&impulse_, &total_impulse_, &total_seal_}) clear(*field);
+}
+
+/// Largest component of a positive field around a contact, weighted by the size of its weights.
+template <int D>
+double SolidContact<D>::largest_sum(const FaceVector<D>& field, const Contact& contact) const {
+  double largest = 0.0;
+  for (int d = 0; d < D; ++d) {
+    const double* faces = field[d].data();
+    double sum = 0.0;
+    for_each_node(d, contact, [&](std::ptrdiff_t at, double w) { sum += std::abs(w) * faces[at]; });
+    largest = std::max(largest, sum);
+  }
+  return largest;
+}
+
+template <int D>
+Vec<D> SolidContact<D>::at_contact(const FaceVector<D>& field, const Contact& contact) const {
+  Vec<D> sum;
+  for (int d = 0; d < D; ++d) {
+    const double* faces = field[d].data();
+    for_each_node(d, contact, [&](std::ptrdiff_t at, double w) { sum[d] += w * faces[at]; });
+  }
+  return sum;
+}
+
+/// One sweep of Jacobi's iteration over all contacts, with the velocities that the last one left.
+template <int D>
+void SolidContact<D>::sweep(const std::vector<Solid>& solids) {
+  for (Contact& contact : contacts_) {
+    const Solid& solid = solids[contact.solid];
+    const Vec<D> body = to_axes<D>(solid.velocity_at(to_space(contact.place)));
+    const Vec<D> miss = at_contact(velocity_, contact) - body + contact.approach * contact.normal;
+    const Vec<D> impulse = bounded(contact.impulse - contact.stiffness * miss, contact);
+    const double leak = contact.wet ? dot(at_contact(slip_, contact), contact.normal) : 0.0;
+    const double seal = contact.seal - contact.seal_stiffness * leak;
+    give(contact, impulse - contact.impulse, seal - contact.seal, solid);
+    contact.impulse = impulse, contact.seal = seal;
+  }
+}
+
+/// Turns the impulses of a sweep into velocities of faces and bodies.
+template <int D>
+void SolidContact<D>::spread(std::vector<Solid>& solids) {
+  gather_sums(impulse_, true);
+  if (wet_) gather_sums(seal_, true);
+  for (int d = 0; d < D; ++d)
+    for_each_face(d, [&](std::ptrdiff_t at) {
+      const double impulse = impulse_[d].data()[at], seal = seal_[d].data()[at];
+      const double cross = cross_mobility_[d].data()[at];
+      velocity_[d].data()[at] += std::max(0.0, mobility_[d].data()[at]) * impulse - cross * seal;
+      slip_[d].data()[at] += slip_mobility_[d].data()[at] * seal - cross * impulse;
+      total_impulse_[d].data()[at] += impulse;
+      total_seal_[d].data()[at] += seal;
+    });
+  clear(impulse_);
+  complete(velocity_, true);
+  if (wet_) clear(seal_), complete(slip_, true);
+  reduced_.resize(6 * solids.size());
+  for (std::size_t s = 0; s < solids.size(); ++s)
+    for (std::size_t a = 0; a < 3; ++a) {
+      reduced_[6 * s + a] = loads_[s].impulse[static_cast<int>(a)];
+      reduced_[6 * s + 3 + a] = loads_[s].moment[static_cast<int>(a)];
+    }
+  MPI_Allreduce(MPI_IN_PLACE, reduced_.data(), static_cast<int>(reduced_.size()), MPI_DOUBLE,
+                MPI_SUM, grid_->comm());
+  for (std::size_t s = 0; s < solids.size(); ++s)
+    solids[s].set_impulse(Eigen::Vector3d(reduced_.data() + 6 * s),
+                          Eigen::Vector3d(reduced_.data() + 6 * s + 3));
+}
+
+template <int D>
+void SolidContact<D>::apply(double dt, const std::vector<BodyConstants>& constants,
+                            const IndexBox<D>& active, std::vector<Solid>& solids,
+                            std::vector<SoilParticles<D>>& bodies, NodeField<NodeSums, D>& sums,
+                            NodeField<NodeMotion, D>& motion) {
+  set_box(solids, active);
+  find(dt, constants, solids, bodies);
+  for (FaceVector<D>* field : {&force_, &impulse_, &seal_}) clear(*field);
+  if (max_over_ranks(*grid_, contacts_.empty() ? 0.0 : 1.0) == 0.0) return;
+  read_faces(dt, sums, motion);
+  keep_faces_with_soil();
+  set_stiffness(solids);
+  loads_.assign(solids.size(), Load{});
+  for (Contact& contact : contacts_) {
+    contact.impulse = bounded(contact.impulse, contact);
+    give(contact, contact.impulse, contact.seal, solids[contact.solid]);
+  }
+  spread(solids);
+  for (int i = 0; i < sweeps; ++i) {
+    sweep(solids);
+    spread(solids);
+  }
+  write_back(dt, bodies, sums, motion);
+}
+
+template <int D>
+void SolidContact<D>::write_back(double dt, std::vector<SoilParticles<D>>& bodies,
+                                 NodeField<NodeSums, D>& sums, NodeField<NodeMotion, D>& motion) {
+  for (int d = 0; d < D; ++d)
+    for_each_face(d, [&](std::ptrdiff_t at) {
+      const double impulse = total_impulse_[d].data()[at], seal = total_seal_[d].data()[at];
+      if (impulse == 0.0 && seal == 0.0) return;
+      NodeMotion& node = motion[static_cast<std::size_t>(d)].data()[at];
+      const double cross = cross_mobility_[d].data()[at];
+      const double grains = std::max(0.0, mobility_[d].data()[at]) * impulse - cross * seal;
+      const double water = grains + slip_mobility_[d].data()[at] * seal - cross * impulse;
+      node.grain_velocity += grains, node.grain_change += grains;
+      node.water_velocity += water, node.water_change += water;
+      sums[static_cast<std::size_t>(d)].data()[at].mixture_force += impulse / dt;
+      force_[d].data()[at] = impulse / dt;
+    });
+  for (const Contact& contact : contacts_) {
+    auto& force = bodies[contact.body].contact_force;
+    for (int a = 0; a < D; ++a) force[a][contact.point] += contact.impulse[a] / dt;
+    force[D][contact.point] += contact.seal / dt;
+  }
+}
+
+template class SolidContact<2>;
+template class SolidContact<3>;
+
+}  // namespace mudlark
