@@ -26,6 +26,8 @@ namespace {
 constexpr double longest_travel = 0.9;
 /// The same where contacts lie up to half a cell beside the points.
 constexpr double longest_travel_with_solids = 0.45;
+/// A body moves at most so far in a step of courant 1, in cells.
+constexpr double most_of_a_cell = 0.2;
 /// Points whose state is updated together; their arrays fit into the second-level cache.
 constexpr std::size_t points_per_block = 1024;
 /// No point is split in a cell that holds so many times the points of a full one.
@@ -151,7 +153,12 @@ void SoilSolver<D>::redistribute() {
 
 template <int D>
 double SoilSolver<D>::stable_step() const {
-  return mudlark::stable_step(*grid_, options_, points_, constants_, laws_);
+  double step = mudlark::stable_step(*grid_, options_, points_, constants_, laws_);
+  const BoxShape domain{to_point3(grid_->lower()), to_point3(grid_->upper())};
+  for (const Solid& solid : solids_)
+    if (const double speed = solid.largest_speed(domain); speed > 0.0)
+      step = std::min(step, options_.courant * most_of_a_cell * grid_->smallest_spacing() / speed);
+  return step;
 }
 
 template <int D>

@@ -159,16 +159,16 @@ SurfaceDistance Solid::distance(const Point3& place) const {
   return found;
 }
 
-double Solid::largest_speed() const {
+double Solid::largest_speed(const BoxShape& within) const {
   double reach2 = 0.0;
   for (std::size_t a = 0; a < 3; ++a) {
     if (dimension_ == 2 && a == 1) continue;
     const double middle = centre_[static_cast<int>(a)];
-    const double way = std::max(box_.upper[a] - middle, middle - box_.lower[a]);
+    const double way = std::max(std::min(box_.upper[a], within.upper[a]) - middle,
+                                middle - std::max(box_.lower[a], within.lower[a]));
     reach2 += way * way;
   }
-  const double turning = spin_.norm();
-  return velocity_.norm() + (turning > 0.0 ? turning * std::sqrt(reach2) : 0.0);
+  return velocity_.norm() + spin_.norm() * std::sqrt(reach2);
 }
 
 void Solid::begin_outer_step() {

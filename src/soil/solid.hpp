@@ -24,8 +24,8 @@ class Solid {
   const BoxShape& box() const { return box_; }
   SurfaceDistance distance(const Point3& place) const;
   Vector velocity_at(const Vector& place) const { return velocity_ + spin_.cross(place - centre_); }
-  /// Largest speed of its surface [m/s]; infinite for a shape without end that turns.
-  double largest_speed() const;
+  /// Largest speed of its surface within a box [m/s].
+  double largest_speed(const BoxShape& within) const;
 
   /// Opens an outer step: force and moment are means over it.
   void begin_outer_step();
@@ -104,6 +104,23 @@ class Solid {
   BoxShape box_;
 };
 
+/// The axis of space that an axis of the problem is.
+template <int D>
+constexpr int axis_in_space(int axis) {
+  return D == 2 && axis == 1 ? 2 : axis;
+}
+template <int D>
+Vec<D> to_axes(const Eigen::Vector3d& v) {
+  Vec<D> out;
+  for (int a = 0; a < D; ++a) out[a] = v[axis_in_space<D>(a)];
+  return out;
+}
+template <int D>
+Eigen::Vector3d to_space(const Vec<D>& v) {
+  Eigen::Vector3d out = Eigen::Vector3d::Zero();
+  for (int a = 0; a < D; ++a) out[axis_in_space<D>(a)] = v[a];
+  return out;
+}
 inline Eigen::Vector3d to_vector(const Point3& p) { return {p[0], p[1], p[2]}; }
 inline Point3 to_point(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
 

@@ -1,0 +1,152 @@
+/// Which material points touch rigid bodies, and which faces hear of it.
+#include <algorithm>
+#include <cmath>
+
+#include "soil/point_stencil.hpp"
+#include "soil/solid_contact.hpp"
+
+namespace mudlark {
+namespace {
+
+/// Gap up to which a point is watched, in point spacings.
+constexpr double watched_gap = 0.1;
+
+/// Share of the grains in the pressure on a surface.
+template <int D>
+double effective_share(const SoilParticles<D>& points, std::size_t p, const Vec<D>& normal,
+                       double pore_pressure) {
+  const SymTensor stress = get_tensor(points.stress, p);
+  double pressed = 0.0;
+  for (int i = 0; i < D; ++i)
+    for (int j = 0; j < D; ++j) pressed -= normal[i] * stress.template between<D>(i, j) * normal[j];
+  pressed = std::max(0.0, pressed);
+  const double whole = pressed + std::max(0.0, pore_pressure);
+  return whole > 0.0 ? pressed / whole : 1.0;
+}
+
+/// How far a point reaches along a normal, from its extent (that of the lattice, deformed with the
+/// soil) [m]; at most a cell, as ghost layers end there.
+template <int D>
+double thickness_of(const SoilParticles<D>& points, std::size_t p, const Vec<D>& normal,
+                    double cell) {
+  SymTensor extent;
+  const auto& e = points.extent;
+  if constexpr (D == 2)
+    extent = {e[0][p], 0.0, e[1][p], 0.0, 0.0, e[2][p]};
+  else
+    extent = get_tensor(e, p);
+  double squared = 0.0;
+  for (int i = 0; i < D; ++i)
+    for (int j = 0; j < D; ++j) squared += normal[i] * extent.template between<D>(i, j) * normal[j];
+  return std::clamp(std::sqrt(std::max(0.0, squared)), 0.1 * cell, cell);
+}
+
+}  // namespace
+
+/// Does a point touch the body, or may it in this step? Sets all that depends on their places. For
+/// adhesion a point covers its volume over its thickness of the surface, fading from half a
+/// thickness away to one and a half, so that rows and random points alike cover it once.
+template <int D>
+bool SolidContact<D>::touch(double dt, const Solid& solid, const SoilParticles<D>& points,
+                            Contact& contact) const {
+  const std::size_t p = contact.point;
+  const double volume = points.volume[p];
+  const Vec<D> position = points.position_of(p);
+  const SurfaceDistance surface = solid.distance(to_point3(position));
+  contact.normal = to_axes<D>(to_vector(surface.normal));
+  const double thickness = thickness_of(points, p, contact.normal, grid_->smallest_spacing());
+  const double gap = surface.distance - 0.5 * thickness;
+  const double adhesion = solid.options().adhesion;
+  if (gap > (adhesion > 0.0 ? 1.0 : watched_gap) * thickness) return false;
+  contact.place = position - 0.5 * thickness * contact.normal;
+  contact.thickness = thickness;
+  contact.approach = std::max(0.0, gap) / dt;
+  const double area = volume / thickness;
+  contact.adhesion = dt * adhesion * area * std::clamp(1.0 - gap / thickness, 0.0, 1.0);
+  contact.friction = solid.options().friction;
+  if (!contact.wet) return true;
+  const double pressure = points.pore_pressure[p];
+  contact.suction = dt * area * std::max(0.0, -pressure);
+  const double share = effective_share(points, p, contact.normal, pressure);
+  contact.friction = share > 0.0 ? share * contact.friction : 0.0;  // which may be infinite
+  return true;
+}
+
+/// The faces that hear of a contact, and how much: the edge of a point moves as the place half a
+/// thickness into the soil does, less what the point itself stretches,
+/// W(x_p + d/2 n) - d n . grad W(x_p).
+/// Forces shared out by these weights meet the stress of the points where the points have it: a
+/// uniform stress stays uniform up to the body. Weights at the edge itself would not, as points sum
+/// up the divergence of stress and do not integrate it; faces that the outermost points hardly
+/// reach would need stresses there that oscillate (decision 0016).
+template <int D>
+void SolidContact<D>::list_nodes(const Vec<D>& position, Contact& contact) {
+  const Vec<D> per_spacing = inverse(grid_->spacing());
+  const Vec<D> deeper = position + 0.5 * contact.thickness * contact.normal;
+  const auto add = [&](std::size_t first, std::ptrdiff_t at, double weight) {
+    if (weight == 0.0) return;
+    for (std::size_t i = first; i < nodes_.size(); ++i)
+      if (nodes_[i].at == at) {
+        nodes_[i].weight += weight;
+        return;
+      }
+    nodes_.push_back({at, weight});
+  };
+  with_kernel(kernel_, [&]<class K>(K) {
+    const PointSplines<D, K> own(in_cells(*grid_, per_spacing, position));
+    const PointSplines<D, K> deep(in_cells(*grid_, per_spacing, deeper));
+    PointSplines<D, K>::template static_for<D>([&]<int Component>() {
+      const std::size_t first = nodes_.size();
+      contact.nodes[Component] = first;
+      deep.template for_each_node<Component>(
+          *grid_, per_spacing,
+          [&](std::ptrdiff_t at, double w, const Vec<D>&, const Vec<D>&) { add(first, at, w); });
+      own.template for_each_node<Component>(
+          *grid_, per_spacing, [&](std::ptrdiff_t at, double, const Vec<D>& g, const Vec<D>&) {
+            add(first, at, -contact.thickness * dot(g, contact.normal));
+          });
+    });
+  });
+  contact.nodes[D] = nodes_.size();
+}
+
+/// Lists the contacts of all points, each with its impulse of the last step for a start.
+template <int D>
+void SolidContact<D>::find(double dt, const std::vector<BodyConstants>& constants,
+                           const std::vector<Solid>& solids,
+                           std::vector<SoilParticles<D>>& bodies) {
+  contacts_.clear(), nodes_.clear();
+  const double reach = 2.0 * grid_->smallest_spacing();
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    SoilParticles<D>& points = bodies[b];
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      const Point3 place = to_point3(points.position_of(p));
+      bool known = false;  // the last step's impulse belongs to one contact
+      for (std::size_t s = 0; s < solids.size(); ++s) {
+        if (!solids[s].near(place, reach)) continue;
+        Contact contact;
+        contact.body = b, contact.point = p, contact.solid = s;
+        contact.wet = constants[b].water_density > 0.0;
+        if (!touch(dt, solids[s], points, contact)) continue;
+        for (int a = 0; a < D && !known; ++a) contact.impulse[a] = dt * points.contact_force[a][p];
+        if (!known) contact.seal = dt * points.contact_force[D][p];
+        known = true;
+        list_nodes(points.position_of(p), contact);
+        contacts_.push_back(contact);
+      }
+    }
+    for (int a = 0; a <= D; ++a)
+      std::fill(points.contact_force[a].begin(), points.contact_force[a].end(), 0.0);
+  }
+}
+
+template bool SolidContact<2>::touch(double, const Solid&, const SoilParticles<2>&, Contact&) const;
+template bool SolidContact<3>::touch(double, const Solid&, const SoilParticles<3>&, Contact&) const;
+template void SolidContact<2>::list_nodes(const Vec<2>&, Contact&);
+template void SolidContact<3>::list_nodes(const Vec<3>&, Contact&);
+template void SolidContact<2>::find(double, const std::vector<BodyConstants>&,
+                                    const std::vector<Solid>&, std::vector<SoilParticles<2>>&);
+template void SolidContact<3>::find(double, const std::vector<BodyConstants>&,
+                                    const std::vector<Solid>&, std::vector<SoilParticles<3>>&);
+
+}  // namespace mudlark
