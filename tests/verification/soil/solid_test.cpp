@@ -171,7 +171,8 @@ void collide(const Shape& shape, double friction, const char* walls, Transfer tr
   std::printf("%d-D collision: momentum off by %.2e, velocity %.3f %.3f %.3f, spin %.3f\n", D,
               (momentum() - start).norm() / start.norm(), body.velocity()[0], body.velocity()[1],
               body.velocity()[2], body.spin()[1]);
-  EXPECT_LT((momentum() - start).norm(), 1e-11 * start.norm());
+  // Not to round-off: faces lighter than 1e-12 of a full one carry no motion of their own.
+  EXPECT_LT((momentum() - start).norm(), 1e-9 * start.norm());
   EXPECT_GT(std::abs(body.velocity()[2] + 3.0), 0.2);  // they have met
   EXPECT_LT(body.velocity().norm(), speed);
 }
