@@ -26,6 +26,7 @@ void SoilSolver<D>::find_equilibrium() {
   const double damping = options_.damping;
   const auto water_damping = options_.water_damping;
   options_.damping = start.damping, options_.water_damping.reset();
+  sides_.hold_still(true);
   Statics statics;
   double elapsed = 0.0;
   do {
@@ -44,6 +45,7 @@ void SoilSolver<D>::find_equilibrium() {
     statics = *this->statics();
   } while (!statics.at_rest(start.rest));
   options_.damping = damping, options_.water_damping = water_damping;
+  sides_.hold_still(false);
   for (auto& points : points_) {
     set_zero(points.velocity), set_zero(points.water_velocity);
     set_zero(points.affine), set_zero(points.water_affine);

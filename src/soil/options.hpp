@@ -9,6 +9,7 @@
 #include "base/vec.hpp"
 #include "grid/shape.hpp"
 #include "materials/options.hpp"
+#include "soil/side_options.hpp"
 
 namespace mudlark {
 
@@ -79,6 +80,7 @@ enum class LoadForm { virtual_stress, facets };
 struct SoilOptions {
   std::vector<SoilBody> bodies;
   std::vector<SurfaceLoad> loads;
+  std::vector<SoilBoundary> boundaries;
   double water_density = 1000.0;       ///< pore water [kg/m3]
   double water_viscosity = 1.002e-3;   ///< [Pa s]
   double water_bulk_modulus = 2.15e9;  ///< [Pa]

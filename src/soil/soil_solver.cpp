@@ -59,7 +59,10 @@ SoilSolver<D>::SoilSolver(const Grid<D>& grid, const SoilOptions& options)
       options_(options),
       halo_(grid),
       surface_(grid, options.loads),
-      wall_contact_(grid),
+      sides_(grid, options.boundaries, options.water_density, options.mass_scaling),
+      side_water_(sides_),
+      absorbing_(sides_),
+      wall_contact_(sides_),
       sums_(make_node_field<NodeSums, D>(grid, "soil sums")),
       motion_(make_node_field<NodeMotion, D>(grid, "soil motion")),
       occupied_(grid, "cells with soil", "1"),
@@ -105,7 +108,7 @@ bool SoilSolver<D>::two_phase() const {
 template <int D>
 void SoilSolver<D>::redistribute() {
   for (std::size_t b = 0; b < points_.size(); ++b) try {
-      removed_grain_mass_ += migrate(*grid_, points_[b]);
+      removed_grain_mass_ += migrate(sides_, points_[b]);
       if (options_.split_stretched)
         removed_grain_mass_ += split_stretched(
             *grid_, {*options_.split_stretched, most_points * options_.bodies[b].points_per_cell},
@@ -150,6 +153,7 @@ void SoilSolver<D>::begin_step(double time, double length, const FluidLoad<D>* w
   length_ = length;
   mean_velocity_.fill(0.0);
   surface_.begin_step(time, length, water, active_);
+  side_water_.begin_outer_step(length);
 }
 
 template <int D>
@@ -160,6 +164,8 @@ void SoilSolver<D>::advance(double dt) {
     surface_.resample(active_);
   }
   sort_strays();
+  step_ = dt;
+  sides_.update(time_, dt);
   gather_nodes();
   solve_nodes(dt);
   update_points(dt);
@@ -189,7 +195,7 @@ void SoilSolver<D>::gather_nodes() {
                    facets ? SurfacePressure<D>{} : surface, sums_);
   if (exchanges_halos()) halo_.add_to_owners(as_doubles<NodeSums, D>(sums_), node_sums);
   add_body_force(*grid_, options_, time_, active_, sums_);
-  fold_into_domain(*grid_, active_, sums_);
+  gather_sides();
   if (facets) {
     for_each(active_, [&](const Index<D>& cell) { occupied_[cell] = 0.0; });
     for (const auto& points : points_) mark_occupied(*grid_, points, occupied_);
@@ -203,35 +209,44 @@ void SoilSolver<D>::gather_nodes() {
   }
 }
 
+/// What images and the sides themselves give to the sums.
+template <int D>
+void SoilSolver<D>::gather_sides() {
+  if (side_water_.drains()) side_water_.measure(sides_, halo_, options_.kernel, points_);
+  fold_into_domain(sides_, active_, step_, side_water_.slopes(), sums_);
+  if (absorbing_.empty()) return;
+  absorbing_.measure(sides_, halo_, options_.kernel, points_);
+  if (absorbing_.started()) absorbing_.add_forces(sums_);
+}
+
 /// Momentum of both phases on a face, drag implicit: NUMERICS A1,
 /// [M_s + dt b, -dt b; -dt b, M_l + dt b] [v_s; v_f]' = [M_s v_s + dt F_s; M_l v_f + dt F_f].
 template <int D>
 void SoilSolver<D>::solve_face(const NodeSums& sums, double dt, double face_volume,
-                               NodeMotion& motion) const {
+                               const FaceHold& hold, NodeMotion& motion) const {
   motion = NodeMotion{};
   if (sums.volume < lightest_face * face_volume) return;
-  const double porosity =
-      sums.water_mass > 0.0
-          ? std::min(1.0, sums.water_mass / (options_.water_density * sums.volume))
-          : 0.0;
+  const double porosity = face_porosity(sums, options_.water_density);
   const double water_force = porosity * sums.water_force;
   const double grain_force = sums.mixture_force - water_force;
   const double inertia = options_.mass_scaling;
   const double ms = inertia * sums.grain_mass, ml = inertia * sums.water_mass;
   const double grain_rhs = inertia * sums.grain_momentum + dt * grain_force;
   const double water_rhs = inertia * sums.water_momentum + dt * water_force;
-  const bool locked = surface_.sealed() && sums.volume < rim_share * face_volume;
+  const bool locked = hold.locked || (surface_.sealed() && sums.volume < rim_share * face_volume);
   const double old_grain = sums.grain_momentum / sums.grain_mass,
                old_water = ml > 0.0 ? sums.water_momentum / sums.water_mass : old_grain;
+  const double held_grain = ms + dt * hold.grains, held_water = ml + dt * hold.water;
   double vs, vl;
   if (ml <= 0.0) {
-    vs = vl = grain_rhs / ms;
+    vs = vl = grain_rhs / held_grain;
   } else if (locked) {
-    vs = vl = (grain_rhs + water_rhs) / (ms + ml);
+    vs = vl = (grain_rhs + water_rhs) / (held_grain + held_water);
   } else {
-    const double drag = dt * sums.drag, determinant = ms * ml + drag * (ms + ml);
-    vs = (grain_rhs * (ml + drag) + drag * water_rhs) / determinant;
-    vl = (water_rhs * (ms + drag) + drag * grain_rhs) / determinant;
+    const double drag = dt * sums.drag;
+    const double determinant = held_grain * held_water + drag * (held_grain + held_water);
+    vs = (grain_rhs * (held_water + drag) + drag * water_rhs) / determinant;
+    vl = (water_rhs * (held_grain + drag) + drag * grain_rhs) / determinant;
   }
   // Local damping (Cundall 1987): a share of the unbalanced force against the motion, each phase by
   // itself.
@@ -249,16 +264,14 @@ void SoilSolver<D>::solve_face(const NodeSums& sums, double dt, double face_volu
   motion.total_flux = vs + porosity * (vl - vs);
 }
 
-/// Faces whose motion this rank computes itself: its own, and those behind open sides, which are no
-/// mirrors.
+/// Faces whose motion this rank computes itself: its own, and those behind sides that grains go
+/// through, which are no mirrors.
 template <int D>
 IndexBox<D> SoilSolver<D>::solved_faces(int axis) const {
   IndexBox<D> faces = grid_->owned_faces(axis);
   for (int a = 0; a < D; ++a) {
-    if (grid_->touches(a, 0) && grid_->wall(a, 0) == Wall::open)
-      faces.lower[a] = grid_->local().lower[a];
-    if (grid_->touches(a, 1) && grid_->wall(a, 1) == Wall::open)
-      faces.upper[a] = grid_->local().upper[a];
+    if (sides_.lets_through(a, 0)) faces.lower[a] = grid_->local().lower[a];
+    if (sides_.lets_through(a, 1)) faces.upper[a] = grid_->local().upper[a];
   }
   return faces.intersected(active_);
 }
@@ -272,15 +285,45 @@ void SoilSolver<D>::solve_nodes(double dt) {
     NodeMotion* motion = motion_[u].data();
     for_each(solved_faces(d), [&](const Index<D>& face) {
       const std::ptrdiff_t at = grid_->offset(face);
-      solve_face(sums[at], dt, volume, motion[at]);
+      solve_face(sums[at], dt, volume, {}, motion[at]);
+    });
+  }
+  solve_sides(dt);
+  account_nodes(dt);
+  if (exchanges_halos()) halo_.exchange(as_doubles<NodeMotion, D>(motion_), node_motions);
+}
+
+/// What the sides make of the motion.
+template <int D>
+void SoilSolver<D>::solve_sides(double dt) {
+  if (!absorbing_.empty() && !sides_.holds_still()) {
+    if (!absorbing_.started()) {
+      absorbing_.start(sides_, halo_, points_, constants_, laws_, options_.water_bulk_modulus,
+                       sums_);
+      absorbing_.add_forces(sums_);
+    }
+    absorbing_.solve(dt, motion_, [&](int d, std::ptrdiff_t at, const FaceHold& hold) {
+      const auto u = static_cast<std::size_t>(d);
+      solve_face(sums_[u].data()[at], dt, grid_->cell_volume(), hold, motion_[u].data()[at]);
     });
   }
   if (!wall_contact_.empty())
-    wall_contact_.apply({dt, options_.transfer == Transfer::apic ? 0.0 : options_.flip_fraction,
+    wall_contact_.apply(sides_,
+                        {dt, options_.transfer == Transfer::apic ? 0.0 : options_.flip_fraction,
                          options_.mass_scaling},
                         sums_, motion_);
-  mirror_motion(*grid_, active_, motion_);
-  for (int d = 0; d < D; ++d) {  // after the walls have come to rest
+  if (side_water_.drains()) {
+    std::array<IndexBox<D>, D> faces;
+    for (int d = 0; d < D; ++d) faces[static_cast<std::size_t>(d)] = solved_faces(d);
+    side_water_.solve(sides_, halo_, dt, faces, sums_, motion_);
+  }
+  mirror_motion(sides_, active_, sums_, motion_);
+}
+
+/// Mean motion and work of the step, after the sides had their say.
+template <int D>
+void SoilSolver<D>::account_nodes(double dt) {
+  for (int d = 0; d < D; ++d) {
     const NodeSums* sums = sums_[static_cast<std::size_t>(d)].data();
     const NodeMotion* motion = motion_[static_cast<std::size_t>(d)].data();
     double* mean = mean_velocity_[d].data();
@@ -291,7 +334,15 @@ void SoilSolver<D>::solve_nodes(double dt) {
                     recent_energy_);
     });
   }
-  if (exchanges_halos()) halo_.exchange(as_doubles<NodeMotion, D>(motion_), node_motions);
+  side_water_.account(
+      sides_, dt,
+      [&](int axis, const Index<D>& face) {
+        const NodeMotion& motion = motion_[static_cast<std::size_t>(axis)][face];
+        return motion.total_flux - motion.grain_velocity;
+      },
+      [&](int axis, const Index<D>& face) {
+        return sums_[static_cast<std::size_t>(axis)][face].volume;
+      });
 }
 
 /// Is there anybody to exchange ghost layers with, be it this rank itself across a periodic side?
@@ -357,8 +408,8 @@ void SoilSolver<D>::solid_fraction(CellField<D>& fraction, CellField<D>& resista
   }
   const std::array<double*, 2> both{fraction.data(), resistance.data()};
   halo_.add_to_owners(both);
-  fold_cells(*grid_, active_, fraction);
-  fold_cells(*grid_, active_, resistance);
+  fold_cells(sides_, active_, fraction);
+  fold_cells(sides_, active_, resistance);
   halo_.exchange(both);
 }
 
