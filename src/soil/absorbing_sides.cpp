@@ -79,8 +79,7 @@ void AbsorbingSides<D>::add_node(const SoilSides<D>& sides, int axis, int side, 
   const Grid<D>& grid = *grid_;
   if (sides.node(axis, side, component, index).mirrored) return;
   const bool here = sides.absorber(axis, side, index);
-  const bool there =
-      component != axis && sides.absorber(axis, side, index.shifted(component, -1));
+  const bool there = component != axis && sides.absorber(axis, side, index.shifted(component, -1));
   if (!here && !there) return;
   // Nodes that this rank solves: its own, and those behind sides that grains go through.
   IndexBox<D> solved = grid.owned_faces(component);
@@ -150,8 +149,8 @@ void AbsorbingSides<D>::start(const SoilSides<D>& sides, Halo<D>& halo,
   SoilStiffness<D> soil(*grid_);
   for (std::size_t b = 0; b < bodies.size(); ++b)
     add_stiffness(*grid_, bodies[b], constants[b], *laws[b], water_bulk_modulus, soil);
-  const std::array<double*, 4> all{soil.volume.data(), soil.density.data(),
-                                   soil.compression.data(), soil.shear.data()};
+  const std::array<double*, 4> all{soil.volume.data(), soil.density.data(), soil.compression.data(),
+                                   soil.shear.data()};
   halo.exchange(all);
   for (Node& node : nodes_) {
     const NodeSums& sum = sums[static_cast<std::size_t>(node.component)].data()[node.at];
@@ -172,8 +171,7 @@ void AbsorbingSides<D>::add_forces(NodeField<NodeSums, D>& sums) const {
     NodeSums& sum = field.data()[node.at];
     if (sum.volume <= 0.0) continue;
     sum.mixture_force += node.reaction;
-    for (int a = 0; a < D; ++a)
-      sum.mixture_force -= area(node, a) * node.spring[a] * node.stretch;
+    for (int a = 0; a < D; ++a) sum.mixture_force -= area(node, a) * node.spring[a] * node.stretch;
     // The wall's push on the water that it seals in, as images would give it.
     if (node.inner >= 0) sum.water_force -= field.data()[node.inner].water_force;
   }

@@ -61,7 +61,8 @@ class AbsorbingSides {
   void solve(double dt, NodeField<NodeMotion, D>& motion, Solve&& solve) {
     for (Node& node : nodes_) {
       double dashpot = 0.0;
-      for (int a = 0; a < D; ++a) dashpot += area(node, a) * (node.dashpot[a] + dt * node.spring[a]);
+      for (int a = 0; a < D; ++a)
+        dashpot += area(node, a) * (node.dashpot[a] + dt * node.spring[a]);
       auto& field = motion[static_cast<std::size_t>(node.component)];
       solve(node.component, node.at,
             FaceHold{(1.0 - node.water_share) * dashpot, node.water_share * dashpot,
@@ -102,7 +103,8 @@ class AbsorbingSides {
   double area(const Node& node, int axis) const {
     const std::ptrdiff_t at = node.share[static_cast<std::size_t>(axis)];
     if (at < 0) return 0.0;
-    const double a = node.sign[axis] * slopes_[static_cast<std::size_t>(axis)][node.component].data()[at];
+    const double a =
+        node.sign[axis] * slopes_[static_cast<std::size_t>(axis)][node.component].data()[at];
     return a > 0.0 ? a : 0.0;
   }
   void add_node(const SoilSides<D>& sides, int axis, int side, int component, const Index<D>& index,
@@ -116,8 +118,8 @@ class AbsorbingSides {
 
   const Grid<D>* grid_;
   bool any_ = false, started_ = false;
-  std::array<bool, D> across_{};         ///< has an axis such a side, anywhere?
-  std::vector<FaceVector<D>> slopes_;    ///< per axis
+  std::array<bool, D> across_{};       ///< has an axis such a side, anywhere?
+  std::vector<FaceVector<D>> slopes_;  ///< per axis
   std::vector<Node> nodes_;
 };
 

@@ -46,8 +46,7 @@ void add_points(const Grid<D>& grid, Kernel kernel, const SoilParticles<D>& poin
                 int side, int component, FaceField<D>& slopes) {
   with_kernel(kernel, [&]<class K>(K) {
     PointSplines<D, K>::template static_for<D>([&]<int Component>() {
-      if (Component == component)
-        add_points<D, K, Component>(grid, points, axis, side, slopes);
+      if (Component == component) add_points<D, K, Component>(grid, points, axis, side, slopes);
     });
   });
 }
@@ -73,7 +72,8 @@ void measure_side_slopes(const SoilSides<D>& sides, Halo<D>& halo, Kernel kernel
                  [&](int other, int, const SideNode&, const Index<D>& from, const Index<D>& to) {
                    if (other == axis) return;
                    const bool on_side = from[axis] == 0 || from[axis] == grid.cells()[axis];
-                   if (behind == Behind::kept || other < axis || on_side) slopes[to] += slopes[from];
+                   if (behind == Behind::kept || other < axis || on_side)
+                     slopes[to] += slopes[from];
                  });
 }
 

@@ -17,19 +17,24 @@ class SideWater {
   explicit SideWater(const SoilSides<D>& sides);
 
   /// Does any side have a pressure or a seepage face?
-  bool drains() const { return drains_; }
+  bool drains() const { return !drains_.empty(); }
   /// See measure_side_slopes; the component along each axis. Collective.
   void measure(const SoilSides<D>& sides, Halo<D>& halo, Kernel kernel,
                const std::vector<SoilParticles<D>>& bodies);
   /// Null where no side drains.
-  const FaceVector<D>* slopes() const { return drains_ ? &slopes_ : nullptr; }
+  const FaceVector<D>* slopes() const { return drains() ? &slopes_ : nullptr; }
 
   /// Motion of the water through faces on sides with a pressure, grains held by the side, from the
   /// folded sums; opens seepage faces where it goes out and closes them where it would come in.
   /// `faces`: those that this rank solves, per axis. Collective.
-  void solve(SoilSides<D>& sides, Halo<D>& halo, double dt,
-             const std::array<IndexBox<D>, D>& faces, const NodeField<NodeSums, D>& sums,
-             NodeField<NodeMotion, D>& motion);
+  void solve(SoilSides<D>& sides, Halo<D>& halo, double dt, const std::array<IndexBox<D>, D>& faces,
+             const NodeField<NodeSums, D>& sums, NodeField<NodeMotion, D>& motion);
+  /// Fluxes behind sides with a pressure, such that the pore pressure of points keeps that of the
+  /// side: the divergence of the total flux is odd about -n/K_w dp/dt of the side. Ghosts and all
+  /// other images of `motion` must be valid. Collective.
+  void mirror_fluxes(const SoilSides<D>& sides, double dt, double water_bulk_modulus,
+                     const std::vector<SoilParticles<D>>& bodies,
+                     const NodeField<NodeSums, D>& sums, NodeField<NodeMotion, D>& motion);
 
   /// Adds up what flows out through the boundaries of the case in a step [m^D]. `flux(axis, face)`
   /// is that of the water relative to the grains [m/s], `volume(axis, face)` the bulk volume of
@@ -55,23 +60,17 @@ class SideWater {
 
   /// Takes the state of seepage faces from its fields to `sides`, ghosts included. Collective.
   void spread(SoilSides<D>& sides, Halo<D>& halo);
-  /// Notes whether a seepage face is open at a cell on a side of this rank.
-  void set_open(int axis, int side, const Index<D>& cell, bool open);
-  bool has_seepage_faces() const { return !faces_.empty(); }
-  /// Calls f(axis, side, cell) for the cells of this rank at sides with a seepage face.
-  template <class F>
-  void for_each_seepage_cell(const SoilSides<D>& sides, F&& f) const {
-    for (const SeepageFace& face : faces_)
-      for_each_cell_at(sides, face.axis, face.side, [&](const Index<D>& cell) {
-        if (sides.is_seepage_face(face.axis, face.side, cell)) f(face.axis, face.side, cell);
-      });
-  }
 
   template <class Archive>
   void archive(Archive& a) {
-    for (auto& face : faces_)
-      a.cells("soil/seepage face " + std::to_string(face.axis) + " " + std::to_string(face.side),
-              face.open);
+    for (Drain& drain : drains_) {
+      const std::string name = std::to_string(drain.axis) + " " + std::to_string(drain.side);
+      a.cells("soil/pressure on side " + name, drain.pressure);
+      a.cells("soil/seepage face " + name, drain.open);
+    }
+    std::int64_t started = started_ ? 1 : 0;
+    if (!drains_.empty()) a.integer("soil/pressure on sides known", started);
+    started_ = started != 0;
     for (std::size_t b = 0; b < volume_.size(); ++b) {
       double all = Archive::loading ? 0.0 : total(volume_[b]);
       a.number("soil/discharge " + names_[b], all);
@@ -81,10 +80,17 @@ class SideWater {
   }
 
  private:
-  struct SeepageFace {
+  /// A side with a pressure or a seepage face somewhere; values in the cells next to it.
+  struct Drain {
     int axis, side;
-    CellField<D> open;  ///< 1 or 0, in the cells at the side
+    CellField<D> pressure;  ///< that the points have there now [Pa]
+    CellField<D> open;      ///< of seepage faces: 1 or 0
   };
+  Drain* drain_on(int axis, int side);
+  void start(const SoilSides<D>& sides, const std::vector<SoilParticles<D>>& bodies);
+  void mirror_flux(const SoilSides<D>& sides, Drain& drain, const Index<D>& cell, double dt,
+                   double water_bulk_modulus, const NodeField<NodeSums, D>& sums,
+                   NodeField<NodeMotion, D>& motion);
   /// Above this share of its volume a face counts as covered with soil.
   static constexpr double full_face = 0.9;
 
@@ -98,13 +104,12 @@ class SideWater {
     row.upper[axis] = row.lower[axis] + 1;
     for_each(row, f);
   }
-  SeepageFace* face_on(int axis, int side);
   double total(double mine) const;
 
   const Grid<D>* grid_;
-  bool drains_, first_rank_;
+  bool first_rank_, started_ = false;
   FaceVector<D> slopes_;
-  std::vector<SeepageFace> faces_;
+  std::vector<Drain> drains_;
   /// Boundaries of the case that say something of the pore water: their names, their numbers in
   /// SoilSides, axis and side.
   std::vector<std::string> names_;

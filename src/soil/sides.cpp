@@ -36,10 +36,7 @@ std::size_t coordinate(int axis, int dimension) {
 template <int D>
 SoilSides<D>::SoilSides(const Grid<D>& grid, const std::vector<SoilBoundary>& boundaries,
                         double water_density, double inertia)
-    : grid_(&grid),
-      boundaries_(boundaries),
-      water_density_(water_density),
-      inertia_(inertia) {
+    : grid_(&grid), boundaries_(boundaries), water_density_(water_density), inertia_(inertia) {
   for (int axis = 0; axis < D; ++axis)
     for (int side = 0; side < 2; ++side) {
       const bool used = grid.touches(axis, side);
@@ -110,7 +107,8 @@ void SoilSides<D>::assign_parts(int axis, int side) {
       bool inside = true;
       for (int a = 0; a < D; ++a) {
         const std::size_t c = coordinate(a, D);
-        inside = inside && (a == axis || (centre[c] >= boundary.from[c] && centre[c] < boundary.to[c]));
+        inside =
+            inside && (a == axis || (centre[c] >= boundary.from[c] && centre[c] < boundary.to[c]));
       }
       if (!inside) continue;
       if (boundary.for_grains) on.grains[place(axis, cell)] = static_cast<int>(b);
@@ -177,8 +175,7 @@ template <int D>
 bool SoilSides<D>::holds_along(int axis, int side, int boundary) const {
   const GrainSide kind = kind_of(axis, side, boundary);
   return kind == GrainSide::fixed ||
-         (kind == GrainSide::moving &&
-          boundaries_[static_cast<std::size_t>(boundary)].holds_along);
+         (kind == GrainSide::moving && boundaries_[static_cast<std::size_t>(boundary)].holds_along);
 }
 
 template <int D>
@@ -230,8 +227,7 @@ SideNode SoilSides<D>::node(int axis, int side, int component, const Index<D>& i
   if (water_of(on, here) == WaterSide::pressure && water_of(on, there) == WaterSide::pressure) {
     node.water = WaterSide::pressure;
     node.flux_sign = -1.0;
-    node.water_value =
-        (on.now[here].water - on.now[there].water) / grid_->spacing()[component];
+    node.water_value = (on.now[here].water - on.now[there].water) / grid_->spacing()[component];
   }
   return node;
 }
@@ -240,9 +236,8 @@ template <int D>
 bool SoilSides<D>::lets_through(int axis, int side) const {
   const Side& on = at(axis, side);
   if (!on.varies) return grid_->touches(axis, side) && !on.plain[0].mirrored;
-  return std::any_of(on.grains.begin(), on.grains.end(), [&](int boundary) {
-    return !mirrors(kind_of(axis, side, boundary));
-  });
+  return std::any_of(on.grains.begin(), on.grains.end(),
+                     [&](int boundary) { return !mirrors(kind_of(axis, side, boundary)); });
 }
 
 template <int D>

@@ -30,8 +30,8 @@ template <int D>
 class SoilSides {
  public:
   /// `inertia`: factor on the masses of grains and water [-], SoilOptions::mass_scaling.
-  SoilSides(const Grid<D>& grid, const std::vector<SoilBoundary>& boundaries,
-            double water_density, double inertia);
+  SoilSides(const Grid<D>& grid, const std::vector<SoilBoundary>& boundaries, double water_density,
+            double inertia);
   /// Only the walls of the grid.
   explicit SoilSides(const Grid<D>& grid) : SoilSides(grid, {}, 1000.0, 1.0) {}
 

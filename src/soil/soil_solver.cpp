@@ -318,6 +318,9 @@ void SoilSolver<D>::solve_sides(double dt) {
     side_water_.solve(sides_, halo_, dt, faces, sums_, motion_);
   }
   mirror_motion(sides_, active_, sums_, motion_);
+  if (!side_water_.drains()) return;
+  if (exchanges_halos()) halo_.exchange(as_doubles<NodeMotion, D>(motion_), node_motions);
+  side_water_.mirror_fluxes(sides_, dt, options_.water_bulk_modulus, points_, sums_, motion_);
 }
 
 /// Mean motion and work of the step, after the sides had their say.

@@ -139,6 +139,19 @@ void mirror_motion(const SoilSides<D>& sides, const IndexBox<D>& box,
 }
 
 template <int D>
+void mirror_component_beside(const SoilSides<D>& sides, int axis, const IndexBox<D>& box,
+                             const NodeField<NodeSums, D>& sums, NodeField<NodeMotion, D>& nodes) {
+  const auto u = static_cast<std::size_t>(axis);
+  for_each_image(
+      sides, box, axis,
+      [&](int other, int, const SideNode& node, const Index<D>& behind, const Index<D>& before) {
+        if (other != axis)
+          nodes[u][behind] = image_of(node, false, sides.grid().gravity()[axis],
+                                      sides.water_density(), sums[u][before], nodes[u][before]);
+      });
+}
+
+template <int D>
 void fold_cells(const SoilSides<D>& sides, const IndexBox<D>& box, CellField<D>& field) {
   const Grid<D>& grid = sides.grid();
   for (int axis = 0; axis < D; ++axis)
@@ -161,6 +174,10 @@ template void mirror_motion(const SoilSides<2>&, const IndexBox<2>&, const NodeF
                             NodeField<NodeMotion, 2>&);
 template void mirror_motion(const SoilSides<3>&, const IndexBox<3>&, const NodeField<NodeSums, 3>&,
                             NodeField<NodeMotion, 3>&);
+template void mirror_component_beside(const SoilSides<2>&, int, const IndexBox<2>&,
+                                      const NodeField<NodeSums, 2>&, NodeField<NodeMotion, 2>&);
+template void mirror_component_beside(const SoilSides<3>&, int, const IndexBox<3>&,
+                                      const NodeField<NodeSums, 3>&, NodeField<NodeMotion, 3>&);
 template void fold_cells(const SoilSides<2>&, const IndexBox<2>&, CellField<2>&);
 template void fold_cells(const SoilSides<3>&, const IndexBox<3>&, CellField<3>&);
 

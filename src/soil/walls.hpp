@@ -33,6 +33,11 @@ template <int D>
 void mirror_motion(const SoilSides<D>& sides, const IndexBox<D>& box,
                    const NodeField<NodeSums, D>& sums, NodeField<NodeMotion, D>& nodes);
 
+/// Only images of the component along an axis at the sides of other axes.
+template <int D>
+void mirror_component_beside(const SoilSides<D>& sides, int axis, const IndexBox<D>& box,
+                             const NodeField<NodeSums, D>& sums, NodeField<NodeMotion, D>& nodes);
+
 /// The same fold for a scalar at cell centres.
 template <int D>
 void fold_cells(const SoilSides<D>& sides, const IndexBox<D>& box, CellField<D>& field);
