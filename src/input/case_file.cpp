@@ -16,7 +16,7 @@ void refuse_later_sections(Section& root) {
           root.place(key),
           fmt::format("[[{}]] is not available yet; available: [domain], [time], "
                       "[water], [[water.body]], [[soil]], [[porous]], [coupling], "
-                      "[[load]], [[wave]], [[gauge]], [soil_solver], [flow_solver]",
+                      "[[load]], [[boundary]], [[wave]], [[gauge]], [soil_solver], [flow_solver]",
                       key));
 }
 
@@ -38,6 +38,7 @@ CaseOptions read_case(const std::filesystem::path& file, std::span<const std::st
   read_soil(root, options, water, grounds);
   read_coupling(root, options);
   read_loads(root, options);
+  read_boundaries(root, options);
   read_waves(root, options);
   read_solvers(root, options, courant);
   read_gauges(root, options);

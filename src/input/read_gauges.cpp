@@ -17,7 +17,7 @@ struct Kind {
   bool has_place;
 };
 
-constexpr std::array<Kind, 12> kinds{{
+constexpr std::array<Kind, 13> kinds{{
     {GaugeQuantity::water_level, "water_level", Of::water, true},
     {GaugeQuantity::pressure, "pressure", Of::water, true},
     {GaugeQuantity::velocity, "velocity", Of::water, true},
@@ -30,6 +30,7 @@ constexpr std::array<Kind, 12> kinds{{
     {GaugeQuantity::pore_pressure, "pore_pressure", Of::soil, true},
     {GaugeQuantity::effective_stress, "effective_stress", Of::soil, true},
     {GaugeQuantity::point_porosity, "point_porosity", Of::soil, true},
+    {GaugeQuantity::discharge, "discharge", Of::soil, false},
 }};
 
 const Kind& kind_of(GaugeQuantity quantity) {
@@ -69,6 +70,20 @@ void read_place(Section& section, const CaseOptions& options, const Kind& kind,
     section.fail("at", "no soil starts there, and this gauge follows soil");
 }
 
+/// The boundary whose discharge is measured.
+void read_boundary(Section& section, const SoilOptions& soil, GaugeOptions& gauge) {
+  gauge.boundary = section.text("boundary");
+  std::vector<std::string> names;
+  for (const SoilBoundary& boundary : soil.boundaries)
+    if (boundary.for_water) names.push_back(boundary.name);
+  if (!section.has("boundary") ||
+      std::find(names.begin(), names.end(), gauge.boundary) != names.end())
+    return;
+  section.fail("boundary", names.empty()
+                               ? "the case has no [[boundary]] with pore_water"
+                               : "the boundaries with pore_water are " + quoted_list(names));
+}
+
 }  // namespace
 
 void read_gauges(Section& root, CaseOptions& options) {
@@ -79,8 +94,8 @@ void read_gauges(Section& root, CaseOptions& options) {
     GaugeOptions gauge;
     gauge.name = read_name(section, names);
     const std::size_t before = root.reading().report.size();
-    gauge.quantity = section.choice<GaugeQuantity>(
-        "quantity", choices, {}, {"section_force", "force", "discharge", "total_mass"});
+    gauge.quantity = section.choice<GaugeQuantity>("quantity", choices, {},
+                                                   {"section_force", "force", "total_mass"});
     const bool known = root.reading().report.size() == before;
     const Kind& kind = kind_of(gauge.quantity);
     if (known && kind.of == Of::water && !options.flow)
@@ -92,7 +107,11 @@ void read_gauges(Section& root, CaseOptions& options) {
     else if (kind.has_place)
       read_place(section, options, kind, gauge);
     else
-      section.forbid("at", fmt::format("{} is measured in the whole domain", kind.name));
+      section.forbid("at", gauge.quantity == GaugeQuantity::discharge
+                               ? "it is measured at a boundary"
+                               : fmt::format("{} is measured in the whole domain", kind.name));
+    if (known && gauge.quantity == GaugeQuantity::discharge && options.soil)
+      read_boundary(section, *options.soil, gauge);
     gauge.every =
         section.number("every", quantity::time,
                        not_negative("the time between values; 0 for every step"), gauge.every);

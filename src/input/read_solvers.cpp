@@ -173,6 +173,9 @@ void read_solvers(Section& root, CaseOptions& options, std::optional<double> cou
           root.place("soil_solver"),
           "soil_solver.method = \"implicit\" has no inertia and cannot follow flowing water; "
           "leave out [[water.body]] or write method = \"explicit\"");
+    if (options.soil->method == TimeMethod::implicit_steps && !options.soil->boundaries.empty())
+      report.add(root.place("boundary"),
+                 "[[boundary]] is not available yet with soil_solver.method = \"implicit\"");
   } else if (root.has("soil_solver"))
     report.add(root.place("soil_solver"), "[soil_solver] is not used: the case has no [[soil]]");
   if (options.flow)

@@ -87,6 +87,8 @@ std::vector<std::string> gauge_columns(const GaugeOptions& gauge, int dimension)
               "effective stress zx [Pa]"};
     case GaugeQuantity::point_porosity:
       return {"porosity [1]"};
+    case GaugeQuantity::discharge:
+      return {"discharge [" + volume + "/s]"};
   }
   return {};
 }
@@ -111,6 +113,8 @@ std::vector<double> read_gauge(World<D>& world, const GaugeOptions& gauge) {
       return {kinetic_energy(world)};
     case GaugeQuantity::max_speed:
       return {world.flow()->max_speed().speed};
+    case GaugeQuantity::discharge:
+      return {world.soil()->discharge(gauge.boundary)};
     default:
       return read_soil(world, gauge);
   }

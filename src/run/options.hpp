@@ -34,13 +34,15 @@ enum class GaugeQuantity {
   pore_pressure,     ///< of the material that started at `at` [Pa]
   effective_stress,  ///< xx, yy, zz, zx of the material that started at `at` [Pa]
   point_porosity,    ///< of the material that started at `at` [-]
+  discharge,         ///< of pore water out through a boundary [m^D/s] (no `at`)
 };
 
 struct GaugeOptions {
   std::string name;
   GaugeQuantity quantity = GaugeQuantity::water_level;
   Point3 at{};
-  double every = 0.0;  ///< [s]; 0: every outer step
+  std::string boundary;  ///< whose discharge it is
+  double every = 0.0;    ///< [s]; 0: every outer step
 };
 
 struct CaseOptions {

@@ -55,14 +55,15 @@ SoilSides<D>::SoilSides(const Grid<D>& grid, const std::vector<SoilBoundary>& bo
     }
 }
 
-/// Position of a cell of this rank's local box in the arrays of a side.
+/// Position of a cell of this rank's local box, or of the one nearest to it, in the arrays of a
+/// side.
 template <int D>
 std::size_t SoilSides<D>::place(int axis, const Index<D>& index) const {
   const IndexBox<D>& local = grid_->local();
   std::ptrdiff_t at = 0, stride = 1;
   for (int a = 0; a < D; ++a) {
     if (a == axis) continue;
-    at += stride * (index[a] - local.lower[a]);
+    at += stride * (std::clamp(index[a], local.lower[a], local.upper[a] - 1) - local.lower[a]);
     stride *= local.upper[a] - local.lower[a];
   }
   return static_cast<std::size_t>(at);
@@ -212,9 +213,7 @@ SideNode SoilSides<D>::node(int axis, int side, int component, const Index<D>& i
     return node;
   }
   // A face along the side lies between two of its cells; the stronger one holds it.
-  Index<D> other = index.shifted(component, -1);
-  other[component] = std::max(other[component], grid_->local().lower[component]);
-  const std::size_t there = place(axis, other);
+  const std::size_t there = place(axis, index.shifted(component, -1));
   const bool second = kind_of(axis, side, on.grains[there]) > kind_of(axis, side, boundary);
   const std::size_t stronger = second ? there : here;
   const int holder = on.grains[stronger];

@@ -36,8 +36,8 @@ double worst_pressure(const SoilSolver<D>& soil, int axis, double at_zero, doubl
   double worst = 0.0;
   const auto& points = soil.points(0);
   for (std::size_t p = 0; p < points.size(); ++p)
-    worst = std::max(worst, std::abs(points.pore_pressure[p] - at_zero -
-                                     slope * points.position[axis][p]));
+    worst = std::max(
+        worst, std::abs(points.pore_pressure[p] - at_zero - slope * points.position[axis][p]));
   MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
   return worst;
 }
@@ -62,7 +62,9 @@ void expect_darcy(int axis, Kernel kernel, Transfer transfer) {
     const auto& q = soil.points(0);
     for (std::size_t p = 0; p < q.size(); ++p)
       if (std::abs(q.start[1][p] - 0.125) < 0.01)
-        std::printf("%.4f %.4f %.3f %.3f v %.3e w %.3e\n", q.start[0][p], q.position[0][p], q.pore_pressure[p], 2000 - 1500 * q.position[0][p], q.velocity[0][p], q.water_velocity[0][p]);
+        std::printf("%.4f %.4f %.3f %.3f v %.3e w %.3e\n", q.start[0][p], q.position[0][p],
+                    q.pore_pressure[p], 2000 - 1500 * q.position[0][p], q.velocity[0][p],
+                    q.water_velocity[0][p]);
   }
   const double area = D == 2 ? 3 * h : 9 * h * h;
   const double exact = conductivity * 1500.0 / 9810.0 * area;
