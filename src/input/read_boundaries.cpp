@@ -60,8 +60,8 @@ void read_range(Section& section, int dimension, SoilBoundary& boundary) {
     if (!(next_centre < last))
       return section.fail(section.has("to") ? "to" : "from",
                           "no cell of the side has its centre between from and to",
-                          fmt::format("The side goes from {:g} to {:g} m in cells of {:g} m.", lower,
-                                      reading.domain->upper[a], h));
+                          fmt::format("The side goes from {:g} to {:g} m in cells of {:g} m.",
+                                      lower, reading.domain->upper[a], h));
   }
 }
 
@@ -132,9 +132,9 @@ const std::vector<Choice<WaterWord>> plain_water{{"sealed", WaterWord::sealed},
 
 /// The value that belongs to a word.
 void read_water_value(Section& table, WaterWord word, bool level, SoilBoundary& boundary) {
-  if (word == WaterWord::pressure) boundary.value = table.varying("pressure", quantity::pressure, {});
-  if (word == WaterWord::inflow)
-    boundary.value = table.varying("inflow", quantity::velocity, {});
+  if (word == WaterWord::pressure)
+    boundary.value = table.varying("pressure", quantity::pressure, {});
+  if (word == WaterWord::inflow) boundary.value = table.varying("inflow", quantity::velocity, {});
   if (word != WaterWord::head) return;
   boundary.value = table.varying("head", quantity::length, {});
   boundary.is_head = true;
@@ -177,8 +177,8 @@ bool overlap(const SoilBoundary& one, const SoilBoundary& other, int dimension) 
   if (one.axis != other.axis || one.side != other.side) return false;
   for (int axis = 0; axis < dimension; ++axis) {
     const std::size_t a = coordinate(axis, dimension);
-    if (axis != one.axis && !(std::max(one.from[a], other.from[a]) <
-                              std::min(one.to[a], other.to[a])))
+    if (axis != one.axis &&
+        !(std::max(one.from[a], other.from[a]) < std::min(one.to[a], other.to[a])))
       return false;
   }
   return true;
@@ -191,8 +191,9 @@ bool lets_grains_through(GrainSide kind) {
 /// What cannot hold together on one side.
 void check_together(Section& section, const CaseOptions& options, const SoilBoundary& boundary) {
   const DomainOptions& domain = options.domain;
-  const Wall wall = domain.walls[static_cast<std::size_t>(boundary.axis)]
-                                [static_cast<std::size_t>(boundary.side)];
+  const Wall wall =
+      domain
+          .walls[static_cast<std::size_t>(boundary.axis)][static_cast<std::size_t>(boundary.side)];
   if (wall == Wall::periodic)
     return section.fail("side", "it is periodic: it has no boundary",
                         "Say under [domain.walls] what else it is.");
@@ -206,8 +207,9 @@ void check_together(Section& section, const CaseOptions& options, const SoilBoun
   for (const SoilBoundary& other : options.soil->boundaries) {
     if (!overlap(boundary, other, domain.dimension)) continue;
     if (boundary.for_grains && other.for_grains)
-      section.fail("grains", fmt::format("boundary \"{}\" says already what grains do on a part of it",
-                                         other.name));
+      section.fail(
+          "grains",
+          fmt::format("boundary \"{}\" says already what grains do on a part of it", other.name));
     if (boundary.for_water && other.for_water)
       section.fail("pore_water",
                    fmt::format("boundary \"{}\" says already what pore water does on a part of it",

@@ -107,11 +107,12 @@ void AbsorbingSides<D>::add_node(const SoilSides<D>& sides, int axis, int side, 
 template <int D>
 void AbsorbingSides<D>::measure(const SoilSides<D>& sides, Halo<D>& halo, Kernel kernel,
                                 const std::vector<SoilParticles<D>>& bodies) {
+  const auto area = [](int, const Vec<D>&) { return 1.0; };
   for (int axis = 0; axis < D; ++axis)
     if (across_[static_cast<std::size_t>(axis)])
       for (int d = 0; d < D; ++d)
-        measure_side_slopes(sides, halo, kernel, bodies, axis, d, Behind::kept,
-                            slopes_[static_cast<std::size_t>(axis)][d]);
+        measure_side_slopes<D>(sides, halo, kernel, bodies, {axis, d, axis, D}, area,
+                               slopes_[static_cast<std::size_t>(axis)][d]);
 }
 
 template <int D>

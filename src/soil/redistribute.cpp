@@ -71,6 +71,19 @@ Index<D> home_cell(const Grid<D>& grid, const Vec<D>& position) {
   return cell;
 }
 
+/// Has a point that is beyond a side gone through an open part? It may have moved on along the side
+/// by up to a cell since.
+template <int D>
+bool went_through(const SoilSides<D>& sides, int axis, int side, const Index<D>& cell) {
+  if (sides.grains(axis, side, cell) == GrainSide::open) return true;
+  if (!sides.lets_through(axis, side)) return false;
+  for (int a = 0; a < D; ++a)
+    for (const int step : {-1, 1})
+      if (a != axis && sides.grains(axis, side, cell.shifted(a, step)) == GrainSide::open)
+        return true;
+  return false;
+}
+
 /// Deals with the points beyond a side: wraps, removes, or reports them. Returns the grain mass
 /// removed.
 template <int D>
@@ -92,12 +105,13 @@ double treat_walls(const SoilSides<D>& sides, SoilParticles<D>& points) {
         points.start[a][p] -= turns;
         continue;
       }
-      const GrainSide kind = sides.grains(a, side, home_cell(grid, points.position_of(p)));
-      if (kind == GrainSide::open) {
+      const Index<D> cell = home_cell(grid, points.position_of(p));
+      if (went_through(sides, a, side, cell)) {
         gone[p] = 1;
         removed += points.grain_mass[p];
         continue;
       }
+      const GrainSide kind = sides.grains(a, side, cell);
       const bool follows = kind == GrainSide::moving || kind == GrainSide::absorbing;
       if (!problem.empty() || (follows && x > lower - reach && x < upper + reach)) continue;
       problem = fmt::format(

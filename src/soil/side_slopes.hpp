@@ -1,5 +1,6 @@
 #pragma once
-/// How much of a side of the domain belongs to the nodes on it and behind it.
+/// Sums over the points near a side, for the nodes on it and behind it.
+#include <functional>
 #include <vector>
 
 #include "grid/halo.hpp"
@@ -9,18 +10,24 @@
 
 namespace mudlark {
 
-/// Whether the nodes behind a side will be folded onto those before it.
-enum class Behind { folded, kept };
+/// Which sum: of V weight dW/dx_direction, W the splines of a component, near both sides of an
+/// axis.
+struct SideSum {
+  int axis, component, direction;
+  /// Images at the sides of axes below this one are folded in, as for the forces of points.
+  int folded;
+};
 
-/// Sums V dW/dx_axis over the points near both sides of an axis, for the nodes of a component on
-/// those sides and behind them [m^(D-1)]: the integral of dW/dx_axis over the soil, which is the
-/// side's area that belongs to the node, with the sign of the inward normal. Summed over points as
-/// forces are, so a uniform pressure is in balance to round-off. Images at the sides of other axes
-/// are folded in as far as fold_into_domain has come when it needs them (Behind::folded), or all of
-/// them. Collective.
+/// Value at a point that goes into a sum.
+template <int D>
+using SideWeight = std::function<double(int side, const Vec<D>& position)>;
+
+/// With direction = axis and weight 1 the integral of dW/dx_axis over the soil: the side's area
+/// that belongs to a node, with the sign of the inward normal. Summed over points as forces are, so
+/// that uniform pressures and stresses are in balance to round-off. Collective.
 template <int D>
 void measure_side_slopes(const SoilSides<D>& sides, Halo<D>& halo, Kernel kernel,
-                         const std::vector<SoilParticles<D>>& bodies, int axis, int component,
-                         Behind behind, FaceField<D>& slopes);
+                         const std::vector<SoilParticles<D>>& bodies, const SideSum& which,
+                         const SideWeight<D>& weight, FaceField<D>& slopes);
 
 }  // namespace mudlark

@@ -9,9 +9,7 @@ namespace mudlark {
 
 template <int D>
 SideWater<D>::SideWater(const SoilSides<D>& sides)
-    : grid_(&sides.grid()),
-      first_rank_(sides.grid().rank() == 0),
-      slopes_(sides.grid(), "slopes at sides", "m^(D-1)") {
+    : grid_(&sides.grid()), first_rank_(sides.grid().rank() == 0) {
   for (std::size_t b = 0; b < sides.boundaries().size(); ++b) {
     const SoilBoundary& boundary = sides.boundaries()[b];
     if (!boundary.for_water) continue;
@@ -26,6 +24,10 @@ SideWater<D>::SideWater(const SoilSides<D>& sides)
                          CellField<D>(*grid_, "seepage face", "1", 1.0)});
   }
   volume_.assign(names_.size(), 0.0);
+  pushes_.resize(drains() ? D : 0);
+  for (const Drain& drain : drains_)
+    if (auto& push = pushes_[static_cast<std::size_t>(drain.axis)]; !push)
+      push.emplace(*grid_, "push of a side on water", "N");
 }
 
 template <int D>
@@ -40,8 +42,13 @@ template <int D>
 void SideWater<D>::measure(const SoilSides<D>& sides, Halo<D>& halo, Kernel kernel,
                            const std::vector<SoilParticles<D>>& bodies) {
   for (int axis = 0; axis < D; ++axis) {
-    if (drain_on(axis, 0) || drain_on(axis, 1))
-      measure_side_slopes(sides, halo, kernel, bodies, axis, axis, Behind::folded, slopes_[axis]);
+    auto& push = pushes_[static_cast<std::size_t>(axis)];
+    if (!push) continue;
+    const auto pressure = [&](int side, const Vec<D>& position) {
+      return sides.pressure_opposite(axis, side, position);
+    };
+    for (int d = 0; d < D; ++d)
+      measure_side_slopes<D>(sides, halo, kernel, bodies, {axis, d, d, axis}, pressure, (*push)[d]);
   }
 }
 
@@ -50,29 +57,33 @@ template <int D>
 void SideWater<D>::solve(SoilSides<D>& sides, Halo<D>& halo, double dt,
                          const std::array<IndexBox<D>, D>& faces,
                          const NodeField<NodeSums, D>& sums, NodeField<NodeMotion, D>& motion) {
-  for_each_face_on_sides(
-      sides, grid_->local(), [&](int axis, int side, const SideNode& node, const Index<D>& face) {
-        if (!faces[static_cast<std::size_t>(axis)].contains(face)) return;
-        const Index<D> cell = face.shifted(axis, -side);
-        const bool seepage = sides.is_seepage_face(axis, side, cell);
-        if (node.water != WaterSide::pressure && !seepage) return;
-        const NodeSums& sum = sums[static_cast<std::size_t>(axis)][face];
-        NodeMotion& moves = motion[static_cast<std::size_t>(axis)][face];
-        moves = {node.velocity, node.velocity - node.velocity_before, node.velocity,
-                 node.velocity - node.velocity_before, node.velocity};
-        if (sum.water_mass <= 0.0) return;
-        const double porosity = face_porosity(sum, sides.water_density());
-        const double mass = sides.inertia() * sum.water_mass, drag = dt * sum.drag;
-        const double old = sum.water_momentum / sum.water_mass;
-        const double velocity =
-            (mass * old + dt * porosity * sum.water_force + drag * node.velocity) / (mass + drag);
-        const double out = (side == 0 ? -1.0 : 1.0) * (velocity - node.velocity);
-        if (seepage) drain_on(axis, side)->open[cell] = out > 0.0 ? 1.0 : 0.0;
-        if (seepage && out <= 0.0) return;
-        moves.water_velocity = velocity;
-        moves.water_change = velocity - old;
-        moves.total_flux = node.velocity + porosity * (velocity - node.velocity);
-      });
+  for (Drain& drain : drains_) {
+    const int axis = drain.axis;
+    const auto u = static_cast<std::size_t>(axis);
+    for_each_face_on_sides(
+        sides, faces[u], axis, [&](int side, const SideNode& node, const Index<D>& face) {
+          if (side != drain.side) return;
+          const Index<D> cell = face.shifted(axis, -side);
+          const bool seepage = sides.is_seepage_face(axis, side, cell);
+          if (node.water != WaterSide::pressure && !seepage) return;
+          const NodeSums& sum = sums[u][face];
+          NodeMotion& moves = motion[u][face];
+          const double change = node.velocity - node.velocity_before;
+          moves = {node.velocity, change, node.velocity, change, node.velocity};
+          if (sum.water_mass <= 0.0) return;
+          const double porosity = face_porosity(sum, sides.water_density());
+          const double mass = sides.inertia() * sum.water_mass, drag = dt * sum.drag;
+          const double old = sum.water_momentum / sum.water_mass;
+          const double velocity =
+              (mass * old + dt * porosity * sum.water_force + drag * node.velocity) / (mass + drag);
+          const double out = (side == 0 ? -1.0 : 1.0) * (velocity - node.velocity);
+          if (seepage) drain.open[cell] = out > 0.0 ? 1.0 : 0.0;
+          if (seepage && out <= 0.0) return;
+          moves.water_velocity = velocity;
+          moves.water_change = velocity - old;
+          moves.total_flux = node.velocity + porosity * (velocity - node.velocity);
+        });
+  }
   if (sides.has(WaterSide::seepage_face)) spread(sides, halo);
 }
 
@@ -129,7 +140,9 @@ void SideWater<D>::mirror_fluxes(const SoilSides<D>& sides, double dt, double wa
     for_each_cell_at(sides, drain.axis, drain.side, [&](const Index<D>& cell) {
       mirror_flux(sides, drain, cell, dt, water_bulk_modulus, sums, motion);
     });
-    mirror_component_beside(sides, drain.axis, grid_->local(), sums, motion);
+    for (int other = 0; other < D; ++other)
+      if (other != drain.axis)
+        mirror_component(sides, other, drain.axis, grid_->local(), sums, motion);
   }
 }
 

@@ -8,6 +8,7 @@
 #include "soil/options.hpp"
 #include "soil/particles.hpp"
 #include "soil/sides.hpp"
+#include "soil/walls.hpp"
 
 namespace mudlark {
 
@@ -18,11 +19,11 @@ class SideWater {
 
   /// Does any side have a pressure or a seepage face?
   bool drains() const { return !drains_.empty(); }
-  /// See measure_side_slopes; the component along each axis. Collective.
+  /// What the pressures of the sides do to the nodes on them and behind them (see
+  /// measure_side_slopes), for fold_into_domain. Collective.
   void measure(const SoilSides<D>& sides, Halo<D>& halo, Kernel kernel,
                const std::vector<SoilParticles<D>>& bodies);
-  /// Null where no side drains.
-  const FaceVector<D>* slopes() const { return drains() ? &slopes_ : nullptr; }
+  const SidePushes<D>* pushes() const { return drains() ? &pushes_ : nullptr; }
 
   /// Motion of the water through faces on sides with a pressure, grains held by the side, from the
   /// folded sums; opens seepage faces where it goes out and closes them where it would come in.
@@ -108,7 +109,7 @@ class SideWater {
 
   const Grid<D>* grid_;
   bool first_rank_, started_ = false;
-  FaceVector<D> slopes_;
+  SidePushes<D> pushes_;
   std::vector<Drain> drains_;
   /// Boundaries of the case that say something of the pore water: their names, their numbers in
   /// SoilSides, axis and side.

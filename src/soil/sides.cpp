@@ -1,7 +1,7 @@
 #include "soil/sides.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
 namespace mudlark {
 namespace {
@@ -84,9 +84,14 @@ Index<D> SoilSides<D>::original(int axis, int side, Index<D> cell) const {
   return cell;
 }
 
+/// Centre of the face on the side by a cell; of one beyond other sides where it would be, so that
+/// pressures go on.
 template <int D>
-Point3 SoilSides<D>::centre_on_side(int axis, int side, const Index<D>& cell) const {
-  return to_point3(grid_->face_centre(axis, original(axis, side, cell).shifted(axis, side)));
+Point3 SoilSides<D>::centre_on_side(int axis, int side, Index<D> cell) const {
+  for (int a = 0; a < D; ++a)
+    if (a != axis && grid_->periodic(a)) cell[a] = original(axis, side, cell)[a];
+  cell[axis] = side == 0 ? 0 : grid_->cells()[axis];
+  return to_point3(grid_->face_centre(axis, cell));
 }
 
 template <int D>
@@ -101,7 +106,7 @@ void SoilSides<D>::assign_parts(int axis, int side) {
   on.water.assign(count, walls);
   on.now.assign(count, Now{});
   for_each(row, [&](const Index<D>& cell) {
-    const Point3 centre = centre_on_side(axis, side, cell);
+    const Point3 centre = centre_on_side(axis, side, original(axis, side, cell));
     for (std::size_t b = 0; b < boundaries_.size(); ++b) {
       const SoilBoundary& boundary = boundaries_[b];
       if (boundary.axis != axis || boundary.side != side) continue;
@@ -116,13 +121,87 @@ void SoilSides<D>::assign_parts(int axis, int side) {
       if (boundary.for_water) on.water[place(axis, cell)] = static_cast<int>(b);
     }
   });
+  find_nearest(axis, side);
+}
+
+template <int D>
+bool SoilSides<D>::has_pressure(const Side& side, std::size_t place) const {
+  const int boundary = side.water[place];
+  if (boundary == walls) return false;
+  const WaterSide kind = boundaries_[static_cast<std::size_t>(boundary)].water;
+  return kind == WaterSide::pressure || kind == WaterSide::seepage_face;
+}
+
+/// For each cell the nearest one with a pressure, itself if it has one, among those two cells away
+/// along each axis; an index below all others where there is none.
+template <int D>
+void SoilSides<D>::find_nearest(int axis, int side) {
+  Side& on = at(axis, side);
+  Index<D> none;
+  none.component.fill(std::numeric_limits<int>::min());
+  on.nearest.assign(on.water.size(), none);
+  IndexBox<D> row = grid_->local();
+  row.upper[axis] = row.lower[axis] + 1;
+  for_each(row, [&](const Index<D>& cell) {
+    IndexBox<D> around{cell, cell};
+    around = around.grown(2);
+    for (int a = 0; a < D; ++a) ++around.upper[a];
+    int least = std::numeric_limits<int>::max();
+    for_each(around.intersected(row), [&](const Index<D>& other) {
+      int distance = 0;
+      for (int a = 0; a < D; ++a) distance += (other[a] - cell[a]) * (other[a] - cell[a]);
+      if (distance >= least || !has_pressure(on, place(axis, other))) return;
+      least = distance;
+      on.nearest[place(axis, cell)] = other;
+    });
+  });
 }
 
 template <int D>
 void SoilSides<D>::update(double time, double dt) {
   for (int axis = 0; axis < D; ++axis)
     for (int side = 0; side < 2; ++side)
-      if (at(axis, side).varies) update_side(axis, side, time, dt);
+      if (at(axis, side).varies) {
+        update_side(axis, side, time, dt);
+        update_slopes(axis, side);
+      }
+}
+
+/// From the neighbours that belong to the same boundary.
+template <int D>
+void SoilSides<D>::update_slopes(int axis, int side) {
+  Side& on = at(axis, side);
+  IndexBox<D> row = grid_->local();
+  row.upper[axis] = row.lower[axis] + 1;
+  for_each(row, [&](const Index<D>& cell) {
+    const std::size_t here = place(axis, cell);
+    if (!has_pressure(on, here)) return;
+    for (int a = 0; a < D; ++a) {
+      if (a == axis) continue;
+      double rise = 0.0, run = 0.0;
+      for (const int step : {-1, 1}) {
+        const Index<D> next = cell.shifted(a, step);
+        if (!row.contains(next) || on.water[place(axis, next)] != on.water[here]) continue;
+        rise += step * (on.now[place(axis, next)].water - on.now[here].water);
+        run += grid_->spacing()[a];
+      }
+      on.now[here].slope[a] = run > 0.0 ? rise / run : 0.0;
+    }
+  });
+}
+
+template <int D>
+double SoilSides<D>::pressure_opposite(int axis, int side, const Vec<D>& position) const {
+  const Side& on = at(axis, side);
+  if (!on.varies) return 0.0;
+  const Index<D> cell = on.nearest[place(axis, grid_->cell_at(position))];
+  if (cell[axis] == std::numeric_limits<int>::min()) return 0.0;
+  const Now& now = on.now[place(axis, cell)];
+  const Vec<D> centre = grid_->cell_centre(cell);
+  double pressure = now.water;
+  for (int a = 0; a < D; ++a)
+    if (a != axis) pressure += now.slope[a] * (position[a] - centre[a]);
+  return pressure;
 }
 
 template <int D>

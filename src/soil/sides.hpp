@@ -58,6 +58,9 @@ class SoilSides {
   const Absorber* absorber(int axis, int side, const Index<D>& cell) const;
   WaterSide water(int axis, int side, const Index<D>& cell) const;
   double water_value(int axis, int side, const Index<D>& cell) const;
+  /// Pressure of a side opposite a position [Pa], straight between its cells and going on from the
+  /// nearest one with a pressure for up to two cells; zero further away.
+  double pressure_opposite(int axis, int side, const Vec<D>& position) const;
 
   bool has(GrainSide kind) const;
   bool has(WaterSide kind) const;
@@ -78,10 +81,12 @@ class SoilSides {
   struct Now {
     Vec<D> velocity{}, velocity_before{};
     double water = 0.0;  ///< pressure [Pa], or flux into the soil [m/s]
+    Vec<D> slope{};      ///< of the pressure along the side [Pa/m]
     bool open = true;    ///< of a seepage face
   };
   struct Side {
     std::vector<int> grains, water;  ///< boundary per cell of this rank's part of the side
+    std::vector<Index<D>> nearest;   ///< cell with a pressure, per cell
     std::vector<Now> now;
     bool varies = false;  ///< do parts or values differ from place to place?
     std::array<SideNode, D> plain;
@@ -95,9 +100,12 @@ class SoilSides {
   bool holds_along(int axis, int side, int boundary) const;
   WaterSide water_of(const Side& side, std::size_t place) const;
   Index<D> original(int axis, int side, Index<D> cell) const;
-  Point3 centre_on_side(int axis, int side, const Index<D>& cell) const;
+  Point3 centre_on_side(int axis, int side, Index<D> cell) const;
   void assign_parts(int axis, int side);
+  void find_nearest(int axis, int side);
+  bool has_pressure(const Side& side, std::size_t place) const;
   void update_side(int axis, int side, double time, double dt);
+  void update_slopes(int axis, int side);
 
   const Grid<D>* grid_;
   std::vector<SoilBoundary> boundaries_;
@@ -106,45 +114,44 @@ class SoilSides {
   std::array<Side, 2 * D> sides_;
 };
 
-/// Calls f(axis, side, node, behind, before) for each pair of mirrored places of a component.
+/// Calls f(node, behind, before) for each pair of mirrored places of a component at both sides of
+/// an axis.
 template <int D, class F>
-void for_each_image(const SoilSides<D>& sides, const IndexBox<D>& box, int component, F&& f) {
+void for_each_image(const SoilSides<D>& sides, const IndexBox<D>& box, int axis, int component,
+                    F&& f) {
   const Grid<D>& grid = sides.grid();
-  for (int axis = 0; axis < D; ++axis)
-    for (int side = 0; side < 2; ++side) {
-      if (!grid.touches(axis, side)) continue;
-      const bool faces_of_axis = component == axis;
-      if (const SideNode* plain = sides.plain(axis, side, component)) {
-        if (plain->mirrored)
-          for_each_mirror_pair(grid, box, axis, side, faces_of_axis,
-                               [&](const Index<D>& behind, const Index<D>& before) {
-                                 f(axis, side, *plain, behind, before);
-                               });
-      } else {
-        for_each_mirror_pair(grid, box, axis, side, faces_of_axis,
-                             [&](const Index<D>& behind, const Index<D>& before) {
-                               const SideNode node = sides.node(axis, side, component, before);
-                               if (node.mirrored) f(axis, side, node, behind, before);
-                             });
-      }
+  const bool faces_of_axis = component == axis;
+  for (int side = 0; side < 2; ++side) {
+    if (!grid.touches(axis, side)) continue;
+    if (const SideNode* plain = sides.plain(axis, side, component)) {
+      if (plain->mirrored)
+        for_each_mirror_pair(
+            grid, box, axis, side, faces_of_axis,
+            [&](const Index<D>& behind, const Index<D>& before) { f(*plain, behind, before); });
+    } else {
+      for_each_mirror_pair(grid, box, axis, side, faces_of_axis,
+                           [&](const Index<D>& behind, const Index<D>& before) {
+                             const SideNode node = sides.node(axis, side, component, before);
+                             if (node.mirrored) f(node, behind, before);
+                           });
     }
+  }
 }
 
-/// Calls f(axis, side, node, face) for each face on a side that grains do not go through.
+/// Calls f(side, node, face) for each face on both sides of an axis that grains do not go through.
 template <int D, class F>
-void for_each_face_on_sides(const SoilSides<D>& sides, const IndexBox<D>& box, F&& f) {
+void for_each_face_on_sides(const SoilSides<D>& sides, const IndexBox<D>& box, int axis, F&& f) {
   const Grid<D>& grid = sides.grid();
-  for (int axis = 0; axis < D; ++axis)
-    for (int side = 0; side < 2; ++side) {
-      if (!grid.touches(axis, side)) continue;
-      IndexBox<D> faces = box;
-      faces.lower[axis] = side == 0 ? 0 : grid.cells()[axis];
-      faces.upper[axis] = faces.lower[axis] + 1;
-      for_each(faces.intersected(box), [&](const Index<D>& face) {
-        const SideNode node = sides.node(axis, side, axis, face);
-        if (node.mirrored) f(axis, side, node, face);
-      });
-    }
+  for (int side = 0; side < 2; ++side) {
+    if (!grid.touches(axis, side)) continue;
+    IndexBox<D> faces = box;
+    faces.lower[axis] = side == 0 ? 0 : grid.cells()[axis];
+    faces.upper[axis] = faces.lower[axis] + 1;
+    for_each(faces.intersected(box), [&](const Index<D>& face) {
+      const SideNode node = sides.node(axis, side, axis, face);
+      if (node.mirrored) f(side, node, face);
+    });
+  }
 }
 
 extern template class SoilSides<2>;

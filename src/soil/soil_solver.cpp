@@ -213,7 +213,7 @@ void SoilSolver<D>::gather_nodes() {
 template <int D>
 void SoilSolver<D>::gather_sides() {
   if (side_water_.drains()) side_water_.measure(sides_, halo_, options_.kernel, points_);
-  fold_into_domain(sides_, active_, step_, side_water_.slopes(), sums_);
+  fold_into_domain(sides_, active_, step_, side_water_.pushes(), sums_);
   if (absorbing_.empty()) return;
   absorbing_.measure(sides_, halo_, options_.kernel, points_);
   if (absorbing_.started()) absorbing_.add_forces(sums_);
@@ -318,6 +318,7 @@ void SoilSolver<D>::solve_sides(double dt) {
     side_water_.solve(sides_, halo_, dt, faces, sums_, motion_);
   }
   mirror_motion(sides_, active_, sums_, motion_);
+  forget_images(sides_, active_, sums_);
   if (!side_water_.drains()) return;
   if (exchanges_halos()) halo_.exchange(as_doubles<NodeMotion, D>(motion_), node_motions);
   side_water_.mirror_fluxes(sides_, dt, options_.water_bulk_modulus, points_, sums_, motion_);

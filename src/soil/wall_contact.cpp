@@ -19,8 +19,7 @@ IndexBox<D> row_at_wall(const Grid<D>& grid, IndexBox<D> box, int axis, int side
 }  // namespace
 
 template <int D>
-WallContact<D>::WallContact(const SoilSides<D>& sides)
-    : grid_(&sides.grid()), halo_(sides.grid()) {
+WallContact<D>::WallContact(const SoilSides<D>& sides) : grid_(&sides.grid()), halo_(sides.grid()) {
   const Grid<D>& grid = *grid_;
   const auto rough = [&](int axis, int side) {
     return grid.wall(axis, side) == Wall::friction ||
@@ -44,7 +43,8 @@ WallContact<D>::WallContact(const SoilSides<D>& sides)
 /// move, it is half of that. A mirrored motion that merely goes on, as in soil that spreads and
 /// sinks, gives none: m v = -p.
 template <int D>
-void WallContact<D>::measure(const SoilSides<D>& sides, const Change& change, const NodeField<NodeSums, D>& sums,
+void WallContact<D>::measure(const SoilSides<D>& sides, const Change& change,
+                             const NodeField<NodeSums, D>& sums,
                              const NodeField<NodeMotion, D>& motion) {
   const Grid<D>& grid = *grid_;
   const double flip = change.flip, rest = 1.0 - flip;
@@ -84,8 +84,8 @@ void WallContact<D>::measure(const SoilSides<D>& sides, const Change& change, co
 }
 
 template <int D>
-void WallContact<D>::apply(const SoilSides<D>& sides, const Change& change, const NodeField<NodeSums, D>& sums,
-                           NodeField<NodeMotion, D>& motion) {
+void WallContact<D>::apply(const SoilSides<D>& sides, const Change& change,
+                           const NodeField<NodeSums, D>& sums, NodeField<NodeMotion, D>& motion) {
   const Grid<D>& grid = *grid_;
   measure(sides, change, sums, motion);
   for (const Side& wall : walls_) {

@@ -3,13 +3,31 @@
 namespace mudlark {
 namespace {
 
-/// Flux along a side of given pressure [m/s]: what weight and the pressure's slope drive.
-double flux_along(const SideNode& node, double gravity, double water_density,
-                  const NodeSums& sums) {
-  if (sums.drag <= 0.0 || sums.volume <= 0.0) return 0.0;
-  const double porosity = face_porosity(sums, water_density);
+enum class OnSide { no, closed, pressure };
+
+/// Does a face of a component lie on a side across the component, and of which kind?
+template <int D>
+OnSide lies_on_side(const SoilSides<D>& sides, int component, const Index<D>& face) {
+  const Grid<D>& grid = sides.grid();
+  for (const int side : {0, 1})
+    if (face[component] == (side == 0 ? 0 : grid.cells()[component]) &&
+        grid.touches(component, side))
+      return sides.node(component, side, component, face).water == WaterSide::pressure
+                 ? OnSide::pressure
+                 : OnSide::closed;
+  return OnSide::no;
+}
+
+/// Flux along a side of given pressure [m/s]: what weight and the pressure's slope drive. None
+/// through another side that lets no water through.
+template <int D>
+double flux_along(const SoilSides<D>& sides, const SideNode& node, int component,
+                  const Index<D>& face, const NodeSums& sums) {
+  if (node.water != WaterSide::pressure || sums.drag <= 0.0 || sums.volume <= 0.0) return 0.0;
+  if (lies_on_side(sides, component, face) == OnSide::closed) return 0.0;
+  const double porosity = face_porosity(sums, sides.water_density());
   const double mobility = porosity * porosity * sums.volume / sums.drag;  // kappa / mu
-  return mobility * (water_density * gravity - node.water_value);
+  return mobility * (sides.water_density() * sides.grid().gravity()[component] - node.water_value);
 }
 
 /// What is the same for all nodes of a component and side.
@@ -18,7 +36,7 @@ struct Around {
   double gravity, water_density, inertia, dt;
 };
 
-void fold_node(const SideNode& side, const Around& around, double slope, const NodeSums& from,
+void fold_node(const SideNode& side, const Around& around, double push, const NodeSums& from,
                NodeSums& to) {
   const auto& [normal, gravity, water_density, inertia, dt] = around;
   to.grain_mass += from.grain_mass;
@@ -41,32 +59,32 @@ void fold_node(const SideNode& side, const Around& around, double slope, const N
   if (side.grain_sign != side.flux_sign)  // v_f = v_s + w / n, both images by their own rule
     to.water_momentum += (side.grain_sign - side.flux_sign) * from.water_mass *
                          from.grain_momentum / from.grain_mass;
-  if (side.water == WaterSide::inflow && normal)
+  if (side.water == WaterSide::inflow && normal) {  // and what drives the flux, by Darcy's law
+    const double porosity = face_porosity(from, water_density);
     to.water_momentum += 2.0 * side.water_value * water_density * from.volume;
+    to.water_force += 2.0 * side.water_value * from.drag / (porosity * porosity);
+  }
   if (side.water == WaterSide::pressure) {
     if (normal)
-      to.water_force -= 2.0 * side.water_value * slope;
+      to.water_force -= 2.0 * push;
     else
-      to.water_force += 2.0 * from.volume * (water_density * gravity - side.water_value);
+      to.water_force += 2.0 * (from.volume * water_density * gravity + push);
   }
 }
 
-/// Motion of a mirrored node.
-NodeMotion image_of(const SideNode& side, bool normal, double gravity, double water_density,
-                    const NodeSums& sums, const NodeMotion& before) {
+/// Motion of a mirrored node. `on_side`: flux of water, relative to the grains, on the side itself
+/// [m/s].
+NodeMotion image_of(const SideNode& side, double on_side, double porosity,
+                    const NodeMotion& before) {
   NodeMotion image;
   image.grain_velocity = side.grain_sign * before.grain_velocity + 2.0 * side.velocity;
   image.grain_change =
       side.grain_sign * before.grain_change + 2.0 * (side.velocity - side.velocity_before);
   double flux = side.flux_sign * (before.total_flux - before.grain_velocity);
   double slip = side.flux_sign * (before.water_velocity - before.grain_velocity);
-  if (side.water != WaterSide::sealed) {
-    double given = 0.0;
-    if (normal && side.water == WaterSide::inflow) given = 2.0 * side.water_value;
-    if (!normal) given = 2.0 * flux_along(side, gravity, water_density, sums);
-    const double porosity = face_porosity(sums, water_density);
-    flux += given;
-    if (porosity > 0.0) slip += given / porosity;
+  if (on_side != 0.0) {
+    flux += 2.0 * on_side;
+    if (porosity > 0.0) slip += 2.0 * on_side / porosity;
   }
   image.water_velocity = image.grain_velocity + slip;
   image.water_change =
@@ -75,80 +93,100 @@ NodeMotion image_of(const SideNode& side, bool normal, double gravity, double wa
   return image;
 }
 
+/// The same for a component at a side; images at sides with a pressure along their normal are
+/// provisional.
+template <int D>
+NodeMotion image_of(const SoilSides<D>& sides, int axis, int component, const SideNode& side,
+                    const Index<D>& before, const NodeSums& sums, const NodeMotion& motion) {
+  double on_side = 0.0;
+  if (component != axis)
+    on_side = flux_along(sides, side, component, before, sums);
+  else if (side.water == WaterSide::inflow)
+    on_side = side.water_value;
+  return image_of(side, on_side, face_porosity(sums, sides.water_density()), motion);
+}
+
 }  // namespace
 
 template <int D>
 void fold_into_domain(const SoilSides<D>& sides, const IndexBox<D>& box, double dt,
-                      const FaceVector<D>* slopes, NodeField<NodeSums, D>& nodes) {
+                      const SidePushes<D>* pushes, NodeField<NodeSums, D>& nodes) {
   const Grid<D>& grid = sides.grid();
-  for (int d = 0; d < D; ++d) {
-    auto& field = nodes[static_cast<std::size_t>(d)];
-    for_each_image(sides, box, d,
-                   [&](int axis, int side, const SideNode& node, const Index<D>& behind,
-                       const Index<D>& before) {
-                     NodeSums& from = field[behind];
-                     const double slope = slopes && d == axis ? (*slopes)[d][behind] : 0.0;
-                     fold_node(
-                         node,
-                         {d == axis, grid.gravity()[d], sides.water_density(), sides.inertia(), dt},
-                         slope, from, field[before]);
-                     // Beside parts that grains go through nodes behind are solved themselves.
-                     if (sides.lets_through(axis, side)) from = NodeSums{};
-                   });
+  for (int axis = 0; axis < D; ++axis) {
+    const FaceVector<D>* push = nullptr;
+    if (pushes && (*pushes)[static_cast<std::size_t>(axis)])
+      push = &*(*pushes)[static_cast<std::size_t>(axis)];
+    for (int d = 0; d < D; ++d) {
+      auto& field = nodes[static_cast<std::size_t>(d)];
+      const Around around{d == axis, grid.gravity()[d], sides.water_density(), sides.inertia(), dt};
+      for_each_image(sides, box, axis, d,
+                     [&](const SideNode& node, const Index<D>& behind, const Index<D>& before) {
+                       double pushed = push ? (*push)[d][behind] : 0.0;
+                       // A face on a side folded before has the push of that side only.
+                       if (push && d < axis && lies_on_side(sides, d, behind) == OnSide::pressure)
+                         pushed = 0.0;
+                       fold_node(node, around, pushed, field[behind], field[before]);
+                     });
+    }
+    if (!push) continue;
+    for_each_face_on_sides(sides, box, axis, [&](int, const SideNode& node, const Index<D>& face) {
+      if (node.water == WaterSide::pressure)
+        nodes[static_cast<std::size_t>(axis)][face].water_force -= (*push)[axis][face];
+    });
   }
-  if (!slopes) return;
-  for_each_face_on_sides(sides, box,
-                         [&](int axis, int, const SideNode& node, const Index<D>& face) {
-                           if (node.water != WaterSide::pressure) return;
-                           NodeSums& sums = nodes[static_cast<std::size_t>(axis)][face];
-                           sums.water_force -= node.water_value * (*slopes)[axis][face];
-                         });
+}
+
+template <int D>
+void mirror_component(const SoilSides<D>& sides, int axis, int component, const IndexBox<D>& box,
+                      const NodeField<NodeSums, D>& sums, NodeField<NodeMotion, D>& nodes) {
+  const auto u = static_cast<std::size_t>(component);
+  for_each_image(sides, box, axis, component,
+                 [&](const SideNode& node, const Index<D>& behind, const Index<D>& before) {
+                   nodes[u][behind] = image_of(sides, axis, component, node, before,
+                                               sums[u][before], nodes[u][before]);
+                 });
 }
 
 template <int D>
 void mirror_motion(const SoilSides<D>& sides, const IndexBox<D>& box,
                    const NodeField<NodeSums, D>& sums, NodeField<NodeMotion, D>& nodes) {
-  const Grid<D>& grid = sides.grid();
   // All sides come to rest before any is mirrored: in a domain one cell wide they see each other.
-  for_each_face_on_sides(
-      sides, box, [&](int axis, int, const SideNode& node, const Index<D>& face) {
-        NodeMotion& motion = nodes[static_cast<std::size_t>(axis)][face];
-        const double change = node.velocity - node.velocity_before;
-        if (node.water == WaterSide::pressure) {  // the water's part is there already
-          motion.grain_velocity = node.velocity;
-          motion.grain_change = change;
-          return;
-        }
-        motion = {node.velocity, change, node.velocity, change, node.velocity};
-        if (node.water != WaterSide::inflow) return;
-        const double porosity =
-            face_porosity(sums[static_cast<std::size_t>(axis)][face], sides.water_density());
-        if (porosity <= 0.0) return;
-        motion.water_velocity += node.water_value / porosity;
-        motion.total_flux += node.water_value;
-      });
-  for (int d = 0; d < D; ++d) {
-    const auto u = static_cast<std::size_t>(d);
-    for_each_image(
-        sides, box, d,
-        [&](int axis, int, const SideNode& node, const Index<D>& behind, const Index<D>& before) {
-          nodes[u][behind] = image_of(node, d == axis, grid.gravity()[d], sides.water_density(),
-                                      sums[u][before], nodes[u][before]);
-        });
+  for (int axis = 0; axis < D; ++axis) {
+    const auto u = static_cast<std::size_t>(axis);
+    for_each_face_on_sides(sides, box, axis, [&](int, const SideNode& node, const Index<D>& face) {
+      NodeMotion& motion = nodes[u][face];
+      const double change = node.velocity - node.velocity_before;
+      if (node.water == WaterSide::pressure) {  // the water's part is there already
+        motion.grain_velocity = node.velocity;
+        motion.grain_change = change;
+        return;
+      }
+      motion = {node.velocity, change, node.velocity, change, node.velocity};
+      if (node.water != WaterSide::inflow) return;
+      const double porosity = face_porosity(sums[u][face], sides.water_density());
+      if (porosity <= 0.0) return;
+      motion.water_velocity += node.water_value / porosity;
+      motion.total_flux += node.water_value;
+    });
   }
+  for (int axis = 0; axis < D; ++axis)
+    for (int d = 0; d < D; ++d) mirror_component(sides, axis, d, box, sums, nodes);
 }
 
 template <int D>
-void mirror_component_beside(const SoilSides<D>& sides, int axis, const IndexBox<D>& box,
-                             const NodeField<NodeSums, D>& sums, NodeField<NodeMotion, D>& nodes) {
-  const auto u = static_cast<std::size_t>(axis);
-  for_each_image(
-      sides, box, axis,
-      [&](int other, int, const SideNode& node, const Index<D>& behind, const Index<D>& before) {
-        if (other != axis)
-          nodes[u][behind] = image_of(node, false, sides.grid().gravity()[axis],
-                                      sides.water_density(), sums[u][before], nodes[u][before]);
-      });
+void forget_images(const SoilSides<D>& sides, const IndexBox<D>& box,
+                   NodeField<NodeSums, D>& nodes) {
+  const Grid<D>& grid = sides.grid();
+  for (int axis = 0; axis < D; ++axis)
+    for (int side = 0; side < 2; ++side)
+      for (int d = 0; d < D && sides.lets_through(axis, side); ++d) {
+        if (sides.plain(axis, side, d)) break;  // open all over: no images
+        for_each_mirror_pair(grid, box, axis, side, d == axis,
+                             [&](const Index<D>& behind, const Index<D>& before) {
+                               if (sides.node(axis, side, d, before).mirrored)
+                                 nodes[static_cast<std::size_t>(d)][behind] = NodeSums{};
+                             });
+      }
 }
 
 template <int D>
@@ -167,17 +205,19 @@ void fold_cells(const SoilSides<D>& sides, const IndexBox<D>& box, CellField<D>&
 }
 
 template void fold_into_domain(const SoilSides<2>&, const IndexBox<2>&, double,
-                               const FaceVector<2>*, NodeField<NodeSums, 2>&);
+                               const SidePushes<2>*, NodeField<NodeSums, 2>&);
 template void fold_into_domain(const SoilSides<3>&, const IndexBox<3>&, double,
-                               const FaceVector<3>*, NodeField<NodeSums, 3>&);
+                               const SidePushes<3>*, NodeField<NodeSums, 3>&);
 template void mirror_motion(const SoilSides<2>&, const IndexBox<2>&, const NodeField<NodeSums, 2>&,
                             NodeField<NodeMotion, 2>&);
 template void mirror_motion(const SoilSides<3>&, const IndexBox<3>&, const NodeField<NodeSums, 3>&,
                             NodeField<NodeMotion, 3>&);
-template void mirror_component_beside(const SoilSides<2>&, int, const IndexBox<2>&,
-                                      const NodeField<NodeSums, 2>&, NodeField<NodeMotion, 2>&);
-template void mirror_component_beside(const SoilSides<3>&, int, const IndexBox<3>&,
-                                      const NodeField<NodeSums, 3>&, NodeField<NodeMotion, 3>&);
+template void forget_images(const SoilSides<2>&, const IndexBox<2>&, NodeField<NodeSums, 2>&);
+template void forget_images(const SoilSides<3>&, const IndexBox<3>&, NodeField<NodeSums, 3>&);
+template void mirror_component(const SoilSides<2>&, int, int, const IndexBox<2>&,
+                               const NodeField<NodeSums, 2>&, NodeField<NodeMotion, 2>&);
+template void mirror_component(const SoilSides<3>&, int, int, const IndexBox<3>&,
+                               const NodeField<NodeSums, 3>&, NodeField<NodeMotion, 3>&);
 template void fold_cells(const SoilSides<2>&, const IndexBox<2>&, CellField<2>&);
 template void fold_cells(const SoilSides<3>&, const IndexBox<3>&, CellField<3>&);
 

@@ -5,6 +5,11 @@
 
 namespace mudlark {
 
+/// Sum V p dW/dx [N], p the pressures of the sides of an axis and x the axis of the component, over
+/// the points near them, for nodes on them and behind them; per axis, where it has such sides.
+template <int D>
+using SidePushes = std::vector<std::optional<FaceVector<D>>>;
+
 /// Folds what points left behind closed sides back onto the nodes before them, as if every point
 /// had a mirror image: scalars add; grains at rest against the side along its normal, and along it
 /// where the side holds them, change sign (odd), otherwise they keep it (even). A side that moves
@@ -12,17 +17,16 @@ namespace mudlark {
 /// even where water goes through; there the pore pressure is odd about the side's own. Layers
 /// behind open sides stay as they are. Weight is among the forces, so the images' weight changes
 /// sign with them: otherwise soil would not rest on a side.
-/// `slopes` (see side_water.hpp) is needed where sides have a pressure, the step's length `dt` [s]
-/// where they move.
+/// `pushes` are needed where sides have a pressure, the step's length `dt` [s] where they move.
 template <int D>
 void fold_into_domain(const SoilSides<D>& sides, const IndexBox<D>& box, double dt,
-                      const FaceVector<D>* slopes, NodeField<NodeSums, D>& nodes);
+                      const SidePushes<D>* pushes, NodeField<NodeSums, D>& nodes);
 
 /// The same where no side moves or has a pressure.
 template <int D>
 void fold_into_domain(const SoilSides<D>& sides, const IndexBox<D>& box,
                       NodeField<NodeSums, D>& nodes) {
-  const FaceVector<D>* none = nullptr;
+  const SidePushes<D>* none = nullptr;
   fold_into_domain(sides, box, 1.0, none, nodes);
 }
 
@@ -33,10 +37,16 @@ template <int D>
 void mirror_motion(const SoilSides<D>& sides, const IndexBox<D>& box,
                    const NodeField<NodeSums, D>& sums, NodeField<NodeMotion, D>& nodes);
 
-/// Only images of the component along an axis at the sides of other axes.
+/// Empties the sums behind parts of sides that grains go through in other parts, where nodes behind
+/// are solved themselves: what was folded into the domain counts only there.
 template <int D>
-void mirror_component_beside(const SoilSides<D>& sides, int axis, const IndexBox<D>& box,
-                             const NodeField<NodeSums, D>& sums, NodeField<NodeMotion, D>& nodes);
+void forget_images(const SoilSides<D>& sides, const IndexBox<D>& box,
+                   NodeField<NodeSums, D>& nodes);
+
+/// Only images of one component at the sides of one axis.
+template <int D>
+void mirror_component(const SoilSides<D>& sides, int axis, int component, const IndexBox<D>& box,
+                      const NodeField<NodeSums, D>& sums, NodeField<NodeMotion, D>& nodes);
 
 /// The same fold for a scalar at cell centres.
 template <int D>
