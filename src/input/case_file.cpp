@@ -23,6 +23,7 @@ CaseOptions read_case(const std::filesystem::path& file, std::span<const std::st
   read_solids(root, options);
   read_coupling(root, options);
   read_loads(root, options);
+  read_boundaries(root, options);
   read_waves(root, options);
   read_solvers(root, options, courant);
   read_gauges(root, options);

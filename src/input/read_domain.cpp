@@ -152,8 +152,15 @@ void read_gravity(Section& section, DomainOptions& domain) {
 void read_wall(Section& walls, const std::string& key, const std::vector<Choice<Wall>>& kinds,
                Wall& wall, double& friction) {
   const Value* value = walls.has(key) ? walls.raw(key) : nullptr;
+  const auto* word = value ? std::get_if<std::string>(&value->data) : nullptr;
+  if (word && (*word == "absorbing" || *word == "fixed" || *word == "moving")) {
+    walls.fail(
+        key, "that is said of soil only",
+        fmt::format("Write [[boundary]] with side = \"{}\" and grains = \"{}\".", key, *word));
+    return;
+  }
   if (!value || !std::holds_alternative<Table>(value->data)) {
-    wall = walls.choice<Wall>(key, kinds, Wall::slip, {"absorbing", "wave", "piston"});
+    wall = walls.choice<Wall>(key, kinds, Wall::slip);
     return;
   }
   Section section = walls.table(key, Record::Form::inline_table);

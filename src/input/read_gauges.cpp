@@ -17,7 +17,7 @@ struct Kind {
   bool has_place;
 };
 
-constexpr std::array<Kind, 17> kinds{{
+constexpr std::array<Kind, 18> kinds{{
     {GaugeQuantity::water_level, "water_level", Of::water, true},
     {GaugeQuantity::pressure, "pressure", Of::water, true},
     {GaugeQuantity::velocity, "velocity", Of::water, true},
@@ -35,6 +35,7 @@ constexpr std::array<Kind, 17> kinds{{
     {GaugeQuantity::solid_displacement, "solid_displacement", Of::solid, false},
     {GaugeQuantity::solid_rotation, "solid_rotation", Of::solid, false},
     {GaugeQuantity::solid_velocity, "solid_velocity", Of::solid, false},
+    {GaugeQuantity::discharge, "discharge", Of::soil, false},
 }};
 
 const Kind& kind_of(GaugeQuantity quantity) {
@@ -88,6 +89,20 @@ void read_solid_name(Section& section, const CaseOptions& options, GaugeOptions&
   gauge.of = section.choice<std::string>("of", choices);
 }
 
+/// The boundary whose discharge is measured.
+void read_boundary(Section& section, const SoilOptions& soil, GaugeOptions& gauge) {
+  gauge.boundary = section.text("boundary");
+  std::vector<std::string> names;
+  for (const SoilBoundary& boundary : soil.boundaries)
+    if (boundary.for_water) names.push_back(boundary.name);
+  if (!section.has("boundary") ||
+      std::find(names.begin(), names.end(), gauge.boundary) != names.end())
+    return;
+  section.fail("boundary", names.empty()
+                               ? "the case has no [[boundary]] with pore_water"
+                               : "the boundaries with pore_water are " + quoted_list(names));
+}
+
 }  // namespace
 
 void read_gauges(Section& root, CaseOptions& options) {
@@ -98,8 +113,8 @@ void read_gauges(Section& root, CaseOptions& options) {
     GaugeOptions gauge;
     gauge.name = read_name(section, names);
     const std::size_t before = root.reading().report.size();
-    gauge.quantity = section.choice<GaugeQuantity>("quantity", choices, {},
-                                                   {"section_force", "discharge", "total_mass"});
+    gauge.quantity =
+        section.choice<GaugeQuantity>("quantity", choices, {}, {"section_force", "total_mass"});
     const bool known = root.reading().report.size() == before;
     const Kind& kind = kind_of(gauge.quantity);
     if (known && kind.of == Of::water && !options.flow)
@@ -119,7 +134,11 @@ void read_gauges(Section& root, CaseOptions& options) {
     else
       section.forbid("at", kind.of == Of::solid
                                ? fmt::format("{} is that of a whole body", kind.name)
+                           : gauge.quantity == GaugeQuantity::discharge
+                               ? "it is measured at a boundary"
                                : fmt::format("{} is measured in the whole domain", kind.name));
+    if (known && gauge.quantity == GaugeQuantity::discharge && options.soil)
+      read_boundary(section, *options.soil, gauge);
     gauge.every =
         section.number("every", quantity::time,
                        not_negative("the time between values; 0 for every step"), gauge.every);

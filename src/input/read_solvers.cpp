@@ -190,6 +190,13 @@ void check_method(Section& root, const SoilOptions& soil, bool water_flows) {
         "soil_solver.method = \"implicit\" finds pore pressure in its own way\n  (formulation "
         "= \"u-w-p\" and \"u-p\" are explicit in the skeleton). Leave formulation out of "
         "[[soil]], or write method = \"explicit\".");
+  if (!soil.boundaries.empty() && implicit)
+    report.add(root.place("boundary"),
+               "[[boundary]] is not available yet with soil_solver.method = \"implicit\"");
+  if (!soil.boundaries.empty() && soil.formulation != Formulation::u_w)
+    report.add(root.place("boundary"),
+               "[[boundary]] needs formulation = \"u-w\" under [[soil]]\n  (the pore pressure of "
+               "u-w-p and u-p knows sealed sides only).");
   if (soil.solids.empty()) return;
   if (implicit)
     report.add(root.place("solid"),

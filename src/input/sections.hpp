@@ -55,6 +55,8 @@ void read_waves(Section& root, CaseOptions& options);
 /// [[solid]]: after [[water.body]] and [[soil]].
 void read_solids(Section& root, CaseOptions& options);
 void read_loads(Section& root, CaseOptions& options);
+/// [[boundary]]: after [domain] and [[soil]].
+void read_boundaries(Section& root, CaseOptions& options);
 void read_solvers(Section& root, CaseOptions& options, std::optional<double> courant);
 void read_coupling(Section& root, CaseOptions& options);
 void read_gauges(Section& root, CaseOptions& options);

@@ -141,6 +141,8 @@ std::vector<std::string> gauge_columns(const GaugeOptions& gauge, int dimension)
       return about_each("rotation", "rad", dimension);
     case GaugeQuantity::solid_velocity:
       return per_axis("velocity", "m/s", dimension);
+    case GaugeQuantity::discharge:
+      return {"discharge [" + volume + "/s]"};
   }
   return {};
 }
@@ -171,6 +173,8 @@ std::vector<double> read_gauge(World<D>& world, const GaugeOptions& gauge) {
     case GaugeQuantity::solid_rotation:
     case GaugeQuantity::solid_velocity:
       return read_solid(world, gauge);
+    case GaugeQuantity::discharge:
+      return {world.soil()->discharge(gauge.boundary)};
     default:
       return read_soil(world, gauge);
   }

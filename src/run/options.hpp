@@ -39,14 +39,16 @@ enum class GaugeQuantity {
   solid_displacement,  ///< of a rigid body's centre since the start [m]
   solid_rotation,      ///< of a rigid body since the start [rad]
   solid_velocity,      ///< of a rigid body's centre [m/s]
+  discharge,           ///< of pore water out through a boundary [m^D/s] (no `at`)
 };
 
 struct GaugeOptions {
   std::string name;
   GaugeQuantity quantity = GaugeQuantity::water_level;
   Point3 at{};
-  std::string of;      ///< name of the rigid body
-  double every = 0.0;  ///< [s]; 0: every outer step
+  std::string of;        ///< name of the rigid body
+  std::string boundary;  ///< whose discharge it is
+  double every = 0.0;    ///< [s]; 0: every outer step
 };
 
 struct CaseOptions {

@@ -28,6 +28,7 @@ void SoilSolver<D>::find_equilibrium() {
   options_.damping = start.damping, options_.water_damping.reset();
   solids_wait_ = true;
   for (Solid& solid : solids_) solid.stop();
+  sides_.hold_still(true);
   Statics statics;
   double elapsed = 0.0;
   do {
@@ -48,6 +49,7 @@ void SoilSolver<D>::find_equilibrium() {
   options_.damping = damping, options_.water_damping = water_damping;
   solids_wait_ = false;
   for (Solid& solid : solids_) solid.start(start.reset_displacements);
+  sides_.hold_still(false);
   for (auto& points : points_) {
     set_zero(points.velocity), set_zero(points.water_velocity);
     set_zero(points.affine), set_zero(points.water_affine);

@@ -18,6 +18,12 @@ inline bool tied(bool sealed, const NodeSums& sums, double face_volume) {
   return sealed && sums.volume < 0.9 * face_volume;
 }
 
+/// What holds a face beside its own inertia.
+struct FaceHold {
+  double grains = 0.0, water = 0.0;  ///< dashpots [kg/s], springs times the step included
+  bool locked = false;               ///< do grains and water move together?
+};
+
 /// Velocities of both phases along the face's axis [m/s].
 struct PhaseVelocity {
   double grains = 0.0, water = 0.0;
@@ -36,18 +42,19 @@ inline constexpr double centred_rise = 0.25;
 /// they move as one.
 class FaceBalance {
  public:
-  FaceBalance(const NodeSums& sums, const SoilOptions& options, double dt, bool tied)
+  FaceBalance(const NodeSums& sums, const SoilOptions& options, double dt, bool tied,
+              const FaceHold& hold = {})
       : sums_(sums),
         options_(options),
         dt_(dt),
         porosity_(sums.water_mass > 0.0
                       ? std::min(1.0, sums.water_mass / (options.water_density * sums.volume))
                       : 0.0),
-        grain_mass_(options.mass_scaling * sums.grain_mass),
-        water_mass_(options.mass_scaling * sums.water_mass),
+        grain_mass_(options.mass_scaling * sums.grain_mass + dt * hold.grains),
+        water_mass_(options.mass_scaling * sums.water_mass + dt * hold.water),
         drag_(dt * sums.drag),
-        dry_(!(water_mass_ > 0.0)),
-        tied_(tied) {}
+        dry_(!(sums.water_mass > 0.0)),
+        tied_(tied || hold.locked) {}
 
   double porosity() const { return porosity_; }
   PhaseVelocity old() const {

@@ -9,6 +9,7 @@
 #include "base/vec.hpp"
 #include "grid/shape.hpp"
 #include "materials/options.hpp"
+#include "soil/side_options.hpp"
 #include "soil/solid_options.hpp"
 
 namespace mudlark {
@@ -86,6 +87,7 @@ struct SoilOptions {
   std::vector<SoilBody> bodies;
   std::vector<SurfaceLoad> loads;
   std::vector<SolidOptions> solids;
+  std::vector<SoilBoundary> boundaries;
   double water_density = 1000.0;       ///< pore water [kg/m3]
   double water_viscosity = 1.002e-3;   ///< [Pa s]
   double water_bulk_modulus = 2.15e9;  ///< [Pa]; infinite: incompressible (u_w_p only)

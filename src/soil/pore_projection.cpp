@@ -37,6 +37,7 @@ bool exchanges_with_anyone(const Grid<D>& grid) {
 template <int D>
 PoreProjection<D>::PoreProjection(const Grid<D>& grid, const SoilOptions& options)
     : grid_(&grid),
+      walls_(grid),
       options_(&options),
       halo_(grid),
       ghosts_(grid),
@@ -73,8 +74,8 @@ void PoreProjection<D>::measure(const std::vector<SoilParticles<D>>& bodies,
       add_filling(*grid_, bodies[b], constants[b], options_->kernel, filling_, pores_);
   const std::array<double*, 2> both{filling_.data(), pores_.data()};
   if (!alone_) halo_.add_to_owners(both);
-  fold_cells(*grid_, active_, filling_);
-  fold_cells(*grid_, active_, pores_);
+  fold_cells(walls_, active_, filling_);
+  fold_cells(walls_, active_, pores_);
   if (!alone_) halo_.exchange(both);
 }
 

@@ -4,6 +4,7 @@
 #include "grid/halo.hpp"
 #include "numerics/pressure_solver.hpp"
 #include "soil/energy.hpp"
+#include "soil/sides.hpp"
 #include "soil/transfer.hpp"
 
 namespace mudlark {
@@ -54,6 +55,7 @@ class PoreProjection {
   [[noreturn]] void report_failure(double time) const;
 
   const Grid<D>* grid_;
+  SoilSides<D> walls_;  ///< of the domain: no [[boundary]] beside an implicit pore pressure
   const SoilOptions* options_;
   Halo<D> halo_;
   Ghosts<D> ghosts_;

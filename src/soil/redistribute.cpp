@@ -62,15 +62,39 @@ std::string place_text(const Vec<D>& position) {
   return fmt::format("({:.6g}, {:.6g}, {:.6g}) m", x[0], x[1], x[2]);
 }
 
-/// Deals with the points beyond a wall: wraps, removes, or reports them. Returns the grain mass
+/// Cell of the domain that a point belongs to. Round-off, or a side that moves, may put a point
+/// that lies at a side into the cell behind it, which nobody owns.
+template <int D>
+Index<D> home_cell(const Grid<D>& grid, const Vec<D>& position) {
+  Index<D> cell = grid.cell_at(position);
+  for (int a = 0; a < D; ++a) cell[a] = std::clamp(cell[a], 0, grid.cells()[a] - 1);
+  return cell;
+}
+
+/// Has a point that is beyond a side gone through an open part? It may have moved on along the side
+/// by up to a cell since.
+template <int D>
+bool went_through(const SoilSides<D>& sides, int axis, int side, const Index<D>& cell) {
+  if (sides.grains(axis, side, cell) == GrainSide::open) return true;
+  if (!sides.lets_through(axis, side)) return false;
+  for (int a = 0; a < D; ++a)
+    for (const int step : {-1, 1})
+      if (a != axis && sides.grains(axis, side, cell.shifted(a, step)) == GrainSide::open)
+        return true;
+  return false;
+}
+
+/// Deals with the points beyond a side: wraps, removes, or reports them. Returns the grain mass
 /// removed.
 template <int D>
-double treat_walls(const Grid<D>& grid, SoilParticles<D>& points) {
+double treat_walls(const SoilSides<D>& sides, SoilParticles<D>& points) {
+  const Grid<D>& grid = sides.grid();
   std::vector<char> gone(points.size(), 0);
   std::string problem;
   double removed = 0.0;
   for (int a = 0; a < D; ++a) {
     const double lower = grid.lower()[a], upper = grid.upper()[a], length = upper - lower;
+    const double reach = 0.5 * grid.spacing()[a];
     for (std::size_t p = 0; p < points.size(); ++p) {
       double& x = points.position[a][p];
       const int side = x < lower ? 0 : x >= upper ? 1 : -1;
@@ -79,29 +103,27 @@ double treat_walls(const Grid<D>& grid, SoilParticles<D>& points) {
         const double turns = length * std::floor((x - lower) / length);
         x -= turns;
         points.start[a][p] -= turns;
-      } else if (grid.wall(a, side) == Wall::open) {
+        continue;
+      }
+      const Index<D> cell = home_cell(grid, points.position_of(p));
+      if (went_through(sides, a, side, cell)) {
         gone[p] = 1;
         removed += points.grain_mass[p];
-      } else if (problem.empty()) {
-        problem = fmt::format(
-            "a material point (id {}) went through the closed wall on the {} side of axis {} at {}",
-            points.id[p], side == 0 ? "lower" : "upper", "xyz"[D == 2 && a == 1 ? 2 : a],
-            place_text(points.position_of(p)));
+        continue;
       }
+      const GrainSide kind = sides.grains(a, side, cell);
+      const bool follows = kind == GrainSide::moving || kind == GrainSide::absorbing;
+      if (!problem.empty() || (follows && x > lower - reach && x < upper + reach)) continue;
+      problem = fmt::format(
+          "a material point (id {}) went {} on the {} side of axis {} at {}", points.id[p],
+          follows ? "more than half a cell out of the domain" : "through the closed wall",
+          side == 0 ? "lower" : "upper", "xyz"[D == 2 && a == 1 ? 2 : a],
+          place_text(points.position_of(p)));
     }
   }
   throw_divergence_if_any(grid.comm(), problem);
   if (removed > 0.0) remove_flagged(points, gone);
   return removed;
-}
-
-/// Cell of the domain that a point belongs to. Round-off may put a point that lies a hair inside
-/// the upper side into the cell behind it, which nobody owns.
-template <int D>
-Index<D> home_cell(const Grid<D>& grid, const Vec<D>& position) {
-  Index<D> cell = grid.cell_at(position);
-  for (int a = 0; a < D; ++a) cell[a] = std::clamp(cell[a], 0, grid.cells()[a] - 1);
-  return cell;
 }
 
 template <int D>
@@ -123,8 +145,9 @@ void send_to_side(const Grid<D>& grid, SoilParticles<D>& points, int axis, int s
 }  // namespace
 
 template <int D>
-double migrate(const Grid<D>& grid, SoilParticles<D>& points) {
-  const double removed = treat_walls(grid, points);
+double migrate(const SoilSides<D>& sides, SoilParticles<D>& points) {
+  const Grid<D>& grid = sides.grid();
+  const double removed = treat_walls(sides, points);
   if (grid.ranks() == 1) return removed;
   for (int away = 1; away > 0;) {
     for (int axis = 0; axis < D; ++axis)
@@ -176,8 +199,8 @@ void sort_by_cell(const Grid<D>& grid, SoilParticles<D>& points) {
   note_runs(grid, cell, points);
 }
 
-template double migrate(const Grid<2>&, SoilParticles<2>&);
-template double migrate(const Grid<3>&, SoilParticles<3>&);
+template double migrate(const SoilSides<2>&, SoilParticles<2>&);
+template double migrate(const SoilSides<3>&, SoilParticles<3>&);
 template void sort_by_cell(const Grid<2>&, SoilParticles<2>&);
 template void sort_by_cell(const Grid<3>&, SoilParticles<3>&);
 

@@ -59,7 +59,10 @@ SoilSolver<D>::SoilSolver(const Grid<D>& grid, const SoilOptions& options)
       options_(options),
       halo_(grid),
       surface_(grid, options.loads),
-      wall_contact_(grid),
+      sides_(grid, options.boundaries, options.water_density, options.mass_scaling),
+      side_water_(sides_),
+      absorbing_(sides_),
+      wall_contact_(sides_),
       sums_(make_node_field<NodeSums, D>(grid, "soil sums")),
       motion_(make_node_field<NodeMotion, D>(grid, "soil motion")),
       occupied_(grid, "cells with soil", "1"),
@@ -118,10 +121,10 @@ bool SoilSolver<D>::two_phase() const {
 template <int D>
 void SoilSolver<D>::redistribute() {
   for (std::size_t b = 0; b < points_.size(); ++b) try {
-      removed_grain_mass_ += migrate(*grid_, points_[b]);
+      removed_grain_mass_ += migrate(sides_, points_[b]);
       if (options_.split_stretched)
         removed_grain_mass_ += split_stretched(
-            *grid_, {*options_.split_stretched, most_points * options_.bodies[b].points_per_cell},
+            sides_, {*options_.split_stretched, most_points * options_.bodies[b].points_per_cell},
             points_[b]);
       sort_by_cell(*grid_, points_[b]);
     } catch (const DivergenceError& error) {  // on all ranks at once
@@ -170,6 +173,7 @@ void SoilSolver<D>::begin_step(double time, double length, const FluidLoad<D>* w
   mean_velocity_.fill(0.0);
   surface_.begin_step(time, length, water, active_);
   for (Solid& solid : solids_) solid.begin_outer_step();
+  side_water_.begin_outer_step(length);
 }
 
 template <int D>
@@ -180,6 +184,8 @@ void SoilSolver<D>::advance(double dt) {
     surface_.resample(active_);
   }
   sort_strays();
+  step_ = dt;
+  sides_.update(time_, dt);
   gather_nodes();
   for (Solid& solid : solids_) solid.begin_step(time_, dt, solids_wait_);
   solve_nodes(dt);
@@ -212,7 +218,7 @@ void SoilSolver<D>::gather_nodes() {
   if (projection_) projection_->measure(points_, constants_);
   if (exchanges_halos()) halo_.add_to_owners(as_doubles<NodeSums, D>(sums_), node_sums);
   add_body_force(*grid_, options_, time_, active_, sums_);
-  fold_into_domain(*grid_, active_, sums_);
+  gather_sides();
   if (facets) {
     for_each(active_, [&](const Index<D>& cell) { occupied_[cell] = 0.0; });
     for (const auto& points : points_) mark_occupied(*grid_, points, occupied_);
@@ -226,13 +232,23 @@ void SoilSolver<D>::gather_nodes() {
   }
 }
 
+/// What images and the sides themselves give to the sums.
+template <int D>
+void SoilSolver<D>::gather_sides() {
+  if (side_water_.drains()) side_water_.measure(sides_, halo_, options_.kernel, points_);
+  fold_into_domain(sides_, active_, step_, side_water_.pushes(), sums_);
+  if (absorbing_.empty()) return;
+  absorbing_.measure(sides_, halo_, options_.kernel, points_);
+  if (absorbing_.started()) absorbing_.add_forces(sums_);
+}
+
 /// Motion of a face under the forces of its points.
 template <int D>
 void SoilSolver<D>::solve_face(const NodeSums& sums, double dt, double face_volume,
-                               NodeMotion& motion) const {
+                               const FaceHold& hold, NodeMotion& motion) const {
   motion = NodeMotion{};
   if (!carries_motion(sums, face_volume)) return;
-  const FaceBalance balance(sums, options_, dt, tied(surface_.sealed(), sums, face_volume));
+  const FaceBalance balance(sums, options_, dt, tied(surface_.sealed(), sums, face_volume), hold);
   const PhaseVelocity old = balance.old(), now = balance.moved();
   motion = {now.grains, now.grains - old.grains, now.water, now.water - old.water,
             balance.flux(now)};
@@ -253,19 +269,30 @@ void SoilSolver<D>::damp_face(const NodeSums& sums, double dt, NodeMotion& motio
   motion.total_flux = balance.flux(damped);
 }
 
+/// Faces whose motion this rank computes itself: its own, and those behind sides that grains go
+/// through, which are no mirrors.
+template <int D>
+IndexBox<D> SoilSolver<D>::solved_faces(int axis) const {
+  IndexBox<D> faces = grid_->owned_faces(axis);
+  for (int a = 0; a < D; ++a) {
+    if (sides_.lets_through(a, 0)) faces.lower[a] = grid_->local().lower[a];
+    if (sides_.lets_through(a, 1)) faces.upper[a] = grid_->local().upper[a];
+  }
+  return faces.intersected(active_);
+}
+
 template <int D>
 void SoilSolver<D>::solve_nodes(double dt) {
   if (projection_) projection_->add_last_rise(dt, sums_);
-  const bool damps_at_once =
-      !solid_contact_ && (options_.damping > 0.0 || options_.water_damping.value_or(0.0) > 0.0);
+  const bool damps_at_once = !solid_contact_ && damps();
   for (int d = 0; d < D; ++d) {
     const auto u = static_cast<std::size_t>(d);
     const double volume = grid_->cell_volume();
     const NodeSums* sums = sums_[u].data();
     NodeMotion* motion = motion_[u].data();
-    for_each(solved_faces(*grid_, d).intersected(active_), [&](const Index<D>& face) {
+    for_each(solved_faces(d), [&](const Index<D>& face) {
       const std::ptrdiff_t at = grid_->offset(face);
-      solve_face(sums[at], dt, volume, motion[at]);
+      solve_face(sums[at], dt, volume, {}, motion[at]);
       if (damps_at_once) damp_face(sums[at], dt, motion[at]);
     });
   }
@@ -273,23 +300,58 @@ void SoilSolver<D>::solve_nodes(double dt) {
     solid_contact_->apply(dt, constants_, active_, solids_, points_, sums_, motion_);
     for (int d = 0; d < D; ++d) {
       const auto u = static_cast<std::size_t>(d);
-      for_each(solved_faces(*grid_, d).intersected(active_),
+      for_each(solved_faces(d),
                [&](const Index<D>& face) { damp_face(sums_[u][face], dt, motion_[u][face]); });
     }
   }
+  solve_sides(dt);
+  account_nodes(dt);
+  if (exchanges_halos()) halo_.exchange(as_doubles<NodeMotion, D>(motion_), node_motions);
+}
+
+/// What the sides make of the motion.
+template <int D>
+void SoilSolver<D>::solve_sides(double dt) {
+  if (!absorbing_.empty() && !sides_.holds_still()) {
+    if (!absorbing_.started()) {
+      absorbing_.start(sides_, halo_, points_, constants_, laws_, options_.water_bulk_modulus,
+                       sums_);
+      absorbing_.add_forces(sums_);
+    }
+    absorbing_.solve(dt, motion_, [&](int d, std::ptrdiff_t at, const FaceHold& hold) {
+      const auto u = static_cast<std::size_t>(d);
+      solve_face(sums_[u].data()[at], dt, grid_->cell_volume(), hold, motion_[u].data()[at]);
+      if (damps()) damp_face(sums_[u].data()[at], dt, motion_[u].data()[at]);
+    });
+  }
   if (!wall_contact_.empty())
-    wall_contact_.apply({dt, options_.transfer == Transfer::apic ? 0.0 : options_.flip_fraction,
+    wall_contact_.apply(sides_,
+                        {dt, options_.transfer == Transfer::apic ? 0.0 : options_.flip_fraction,
                          options_.mass_scaling},
                         sums_, motion_);
   if (projection_)
     projection_->project(dt, time_, surface_.sealed(), sums_, motion_, recent_energy_);
-  mirror_motion(*grid_, active_, motion_);
+  if (side_water_.drains()) {
+    std::array<IndexBox<D>, D> faces;
+    for (int d = 0; d < D; ++d) faces[static_cast<std::size_t>(d)] = solved_faces(d);
+    side_water_.solve(sides_, halo_, dt, faces, sums_, motion_);
+  }
+  mirror_motion(sides_, active_, sums_, motion_);
+  forget_images(sides_, active_, sums_);
+  if (!side_water_.drains()) return;
+  if (exchanges_halos()) halo_.exchange(as_doubles<NodeMotion, D>(motion_), node_motions);
+  side_water_.mirror_fluxes(sides_, dt, options_.water_bulk_modulus, points_, sums_, motion_);
+}
+
+/// Mean motion and work of the step, after the sides had their say.
+template <int D>
+void SoilSolver<D>::account_nodes(double dt) {
   const bool moves_with_grains = options_.formulation == Formulation::u_p;
-  for (int d = 0; d < D; ++d) {  // after the walls have come to rest
+  for (int d = 0; d < D; ++d) {
     const NodeSums* sums = sums_[static_cast<std::size_t>(d)].data();
     const NodeMotion* motion = motion_[static_cast<std::size_t>(d)].data();
     double* mean = mean_velocity_[d].data();
-    for_each(solved_faces(*grid_, d).intersected(active_), [&](const Index<D>& face) {
+    for_each(solved_faces(d), [&](const Index<D>& face) {
       const std::ptrdiff_t at = grid_->offset(face);
       mean[at] += dt / length_ * motion[at].grain_velocity;
       const double water_change =
@@ -298,7 +360,15 @@ void SoilSolver<D>::solve_nodes(double dt) {
                     water_change, dt, recent_energy_);
     });
   }
-  if (exchanges_halos()) halo_.exchange(as_doubles<NodeMotion, D>(motion_), node_motions);
+  side_water_.account(
+      sides_, dt,
+      [&](int axis, const Index<D>& face) {
+        const NodeMotion& motion = motion_[static_cast<std::size_t>(axis)][face];
+        return motion.total_flux - motion.grain_velocity;
+      },
+      [&](int axis, const Index<D>& face) {
+        return sums_[static_cast<std::size_t>(axis)][face].volume;
+      });
 }
 
 /// Is there anybody to exchange ghost layers with, be it this rank itself across a periodic side?
@@ -367,8 +437,8 @@ void SoilSolver<D>::solid_fraction(CellField<D>& fraction, CellField<D>& resista
   }
   const std::array<double*, 2> both{fraction.data(), resistance.data()};
   halo_.add_to_owners(both);
-  fold_cells(*grid_, active_, fraction);
-  fold_cells(*grid_, active_, resistance);
+  fold_cells(sides_, active_, fraction);
+  fold_cells(sides_, active_, resistance);
   halo_.exchange(both);
 }
 

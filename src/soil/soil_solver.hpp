@@ -7,6 +7,7 @@
 
 #include "grid/halo.hpp"
 #include "materials/soil_model.hpp"
+#include "soil/absorbing_sides.hpp"
 #include "soil/energy.hpp"
 #include "soil/fluid_load.hpp"
 #include "soil/kinematics.hpp"
@@ -14,6 +15,8 @@
 #include "soil/options.hpp"
 #include "soil/particles.hpp"
 #include "soil/pore_projection.hpp"
+#include "soil/side_water.hpp"
+#include "soil/sides.hpp"
 #include "soil/solid_contact.hpp"
 #include "soil/statics.hpp"
 #include "soil/surface_load.hpp"
@@ -94,6 +97,10 @@ class SoilSolver {
   };
   Totals totals() const;  ///< over all ranks; collective
 
+  /// Pore water that flows out through a boundary of the case, mean over the last outer step
+  /// [m^D/s]. Collective.
+  double discharge(const std::string& boundary) const { return side_water_.discharge(boundary); }
+
   /// Largest distance of a point from its place at the start [m]. Collective.
   double largest_displacement() const;
 
@@ -117,14 +124,25 @@ class SoilSolver {
     a.number("soil/time", time_);
     a.number("soil/next implicit step", next_step_);
     if (projection_) projection_->archive(a);
+    side_water_.archive(a);
+    if (Archive::loading) side_water_.spread(sides_, halo_);
+    absorbing_.archive(a);
   }
 
  private:
+  IndexBox<D> solved_faces(int axis) const;
   bool exchanges_halos() const;
   void gather_nodes();
+  void gather_sides();
   void solve_nodes(double dt);
-  void solve_face(const NodeSums& sums, double dt, double face_volume, NodeMotion& motion) const;
+  bool damps() const {
+    return options_.damping > 0.0 || options_.water_damping.value_or(0.0) > 0.0;
+  }
   void damp_face(const NodeSums& sums, double dt, NodeMotion& motion) const;
+  void solve_sides(double dt);
+  void account_nodes(double dt);
+  void solve_face(const NodeSums& sums, double dt, double face_volume, const FaceHold& hold,
+                  NodeMotion& motion) const;
   void update_points(double dt);
   std::size_t update_block(std::size_t body, PointRange block, double dt);
   void sort_strays();
@@ -141,6 +159,9 @@ class SoilSolver {
   std::vector<BodyConstants> constants_;
   std::vector<std::unique_ptr<SoilModel>> laws_;
   SurfaceLoads<D> surface_;
+  SoilSides<D> sides_;
+  SideWater<D> side_water_;
+  AbsorbingSides<D> absorbing_;
   WallContact<D> wall_contact_;
   std::optional<PoreProjection<D>> projection_;  ///< where pore pressure is found implicitly
   std::vector<Solid> solids_;
@@ -153,6 +174,7 @@ class SoilSolver {
   PointMotion point_motion_;
   IndexBox<D> active_{};
   double time_ = 0.0;
+  double step_ = 0.0;       ///< of the motion being computed [s]
   double travelled_ = 0.0;  ///< bound on how far any point moved since redistribute(), in cells
   double removed_grain_mass_ = 0.0;
   bool solids_wait_ = false;   ///< given motion has not begun

@@ -162,14 +162,16 @@ void follow_extent(std::span<const double> gradient, PointRange range, SoilParti
 }
 
 template <int D>
-double split_stretched(const Grid<D>& grid, const Splitting& splitting, SoilParticles<D>& points) {
+double split_stretched(const SoilSides<D>& sides, const Splitting& splitting,
+                       SoilParticles<D>& points) {
+  const Grid<D>& grid = sides.grid();
   double removed = 0.0;
   for (int any = 1; any > 0;) {
     const std::vector<std::size_t> chosen = too_long(grid, splitting, points);
     split(grid, chosen, points);
     const int mine = chosen.empty() ? 0 : 1;
     MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, grid.comm());
-    if (any > 0) removed += migrate(grid, points);
+    if (any > 0) removed += migrate(sides, points);
   }
   return removed;
 }
@@ -178,7 +180,7 @@ template void set_extent(const Grid<2>&, int, std::size_t, SoilParticles<2>&);
 template void set_extent(const Grid<3>&, int, std::size_t, SoilParticles<3>&);
 template void follow_extent(std::span<const double>, PointRange, SoilParticles<2>&);
 template void follow_extent(std::span<const double>, PointRange, SoilParticles<3>&);
-template double split_stretched(const Grid<2>&, const Splitting&, SoilParticles<2>&);
-template double split_stretched(const Grid<3>&, const Splitting&, SoilParticles<3>&);
+template double split_stretched(const SoilSides<2>&, const Splitting&, SoilParticles<2>&);
+template double split_stretched(const SoilSides<3>&, const Splitting&, SoilParticles<3>&);
 
 }  // namespace mudlark

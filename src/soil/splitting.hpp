@@ -4,6 +4,7 @@
 
 #include "grid/grid.hpp"
 #include "soil/particles.hpp"
+#include "soil/sides.hpp"
 
 namespace mudlark {
 
@@ -29,6 +30,11 @@ void follow_extent(std::span<const double> gradient, PointRange range, SoilParti
 /// they were, and so does the affine motion of APIC. Which points are split does not depend on
 /// their order or on the ranks. Returns the grain mass removed through open sides [kg]. Collective.
 template <int D>
-double split_stretched(const Grid<D>& grid, const Splitting& splitting, SoilParticles<D>& points);
+double split_stretched(const SoilSides<D>& sides, const Splitting& splitting,
+                       SoilParticles<D>& points);
+template <int D>
+double split_stretched(const Grid<D>& grid, const Splitting& splitting, SoilParticles<D>& points) {
+  return split_stretched(SoilSides<D>(grid), splitting, points);
+}
 
 }  // namespace mudlark

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <utility>
 
-#include "soil/mirror.hpp"
 #include "soil/soil_solver.hpp"
 
 namespace mudlark {
@@ -44,11 +43,14 @@ double SoilSolver<D>::squared_force_on_free_faces() {
   gather_nodes();
   double sum = 0.0;
   for (int d = 0; d < D; ++d) {
-    const auto held = [&](int side) { return closed(grid_->wall(d, side)); };
+    const auto held = [&](int side, const Index<D>& face) {
+      return grid_->touches(d, side) && face[d] == (side == 0 ? 0 : grid_->cells()[d]) &&
+             sides_.node(d, side, d, face).mirrored;
+    };
     const NodeSums* sums = sums_[static_cast<std::size_t>(d)].data();
     // Bodies press on soil from outside, as loads do: as hard as in the last step.
     for_each(grid_->owned_faces(d).intersected(active_), [&](const Index<D>& face) {
-      if ((face[d] == 0 && held(0)) || (face[d] == grid_->cells()[d] && held(1))) return;
+      if (held(0, face) || held(1, face)) return;
       const std::ptrdiff_t at = grid_->offset(face);
       const double solid = solid_contact_ ? solid_contact_->force(d, at) : 0.0;
       const double force = sums[at].mixture_force + solid;

@@ -19,12 +19,20 @@ IndexBox<D> row_at_wall(const Grid<D>& grid, IndexBox<D> box, int axis, int side
 }  // namespace
 
 template <int D>
-WallContact<D>::WallContact(const Grid<D>& grid) : grid_(&grid), halo_(grid) {
+WallContact<D>::WallContact(const SoilSides<D>& sides) : grid_(&sides.grid()), halo_(sides.grid()) {
+  const Grid<D>& grid = *grid_;
+  const auto rough = [&](int axis, int side) {
+    return grid.wall(axis, side) == Wall::friction ||
+           std::any_of(sides.boundaries().begin(), sides.boundaries().end(),
+                       [&](const SoilBoundary& part) {
+                         return part.axis == axis && part.side == side && part.for_grains &&
+                                part.grains == GrainSide::friction;
+                       });
+  };
   for (int axis = 0; axis < D; ++axis)
     for (int side = 0; side < 2; ++side)
-      if (grid.wall(axis, side) == Wall::friction)
-        walls_.push_back({axis, side, grid.wall_friction(axis, side),
-                          CellField<D>(grid, "impulse of the wall", "kg m/s")});
+      if (rough(axis, side))
+        walls_.push_back({axis, side, CellField<D>(grid, "impulse of the wall", "kg m/s")});
 }
 
 /// Points near the wall own a share of the faces behind it. By the law of action and reaction what
@@ -35,7 +43,8 @@ WallContact<D>::WallContact(const Grid<D>& grid) : grid_(&grid), halo_(grid) {
 /// move, it is half of that. A mirrored motion that merely goes on, as in soil that spreads and
 /// sinks, gives none: m v = -p.
 template <int D>
-void WallContact<D>::measure(const Change& change, const NodeField<NodeSums, D>& sums,
+void WallContact<D>::measure(const SoilSides<D>& sides, const Change& change,
+                             const NodeField<NodeSums, D>& sums,
                              const NodeField<NodeMotion, D>& motion) {
   const Grid<D>& grid = *grid_;
   const double flip = change.flip, rest = 1.0 - flip;
@@ -48,6 +57,8 @@ void WallContact<D>::measure(const Change& change, const NodeField<NodeSums, D>&
       const int face = wall.side == 0 ? 0 : grid.cells()[wall.axis];
       const IndexBox<D> row = row_at_wall(grid, grid.owned(), wall.axis, wall.side);
       for_each(row, [&](const Index<D>& cell) {
+        const double coefficient = sides.friction(wall.axis, wall.side, cell);
+        if (coefficient == 0.0) return;
         double given = 0.0;
         for (int layer = 0; layer <= depth; ++layer) {
           Index<D> behind = cell, before = cell;
@@ -65,7 +76,7 @@ void WallContact<D>::measure(const Change& change, const NodeField<NodeSums, D>&
           }
           given += (layer == 0 ? 1.0 : 2.0) * left;
         }
-        wall.impulse[cell] = outwards * given;
+        wall.impulse[cell] = coefficient * outwards * given;
       });
     }
     halo_.exchange(wall.impulse);
@@ -73,10 +84,10 @@ void WallContact<D>::measure(const Change& change, const NodeField<NodeSums, D>&
 }
 
 template <int D>
-void WallContact<D>::apply(const Change& change, const NodeField<NodeSums, D>& sums,
-                           NodeField<NodeMotion, D>& motion) {
+void WallContact<D>::apply(const SoilSides<D>& sides, const Change& change,
+                           const NodeField<NodeSums, D>& sums, NodeField<NodeMotion, D>& motion) {
   const Grid<D>& grid = *grid_;
-  measure(change, sums, motion);
+  measure(sides, change, sums, motion);
   for (const Side& wall : walls_) {
     if (!grid.touches(wall.axis, wall.side)) continue;
     for (int d = 0; d < D; ++d) {
@@ -88,7 +99,7 @@ void WallContact<D>::apply(const Change& change, const NodeField<NodeSums, D>& s
         const double mass = change.inertia * sums[u][face].grain_mass;
         if (mass <= 0.0) return;
         const Index<D> below = face.shifted(d, -1);
-        const double pressed = std::max(0.0, 0.5 * (wall.impulse[face] + wall.impulse[below]));
+        const double held = std::max(0.0, 0.5 * (wall.impulse[face] + wall.impulse[below]));
         double speed2 = node.grain_velocity * node.grain_velocity;
         for (int other = 0; other < D; ++other) {  // the second component along the wall, in 3D
           if (other == d || other == wall.axis) continue;
@@ -98,7 +109,7 @@ void WallContact<D>::apply(const Change& change, const NodeField<NodeSums, D>& s
                                       field[below.shifted(other, 1)].grain_velocity);
           speed2 += mean * mean;
         }
-        const double largest = wall.coefficient * pressed / mass;
+        const double largest = held / mass;
         const double speed = std::sqrt(speed2);
         const double share = speed > 0.0 ? std::min(1.0, largest / speed) : 0.0;
         const double loss = share * node.grain_velocity;

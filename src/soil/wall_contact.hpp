@@ -1,10 +1,11 @@
 #pragma once
-/// Coulomb friction of soil on the sides of the domain.
+/// Coulomb friction of soil on sides of the domain, or on parts of them.
 #include <memory>
 #include <vector>
 
 #include "grid/halo.hpp"
 #include "soil/nodes.hpp"
+#include "soil/sides.hpp"
 
 namespace mudlark {
 
@@ -14,7 +15,7 @@ namespace mudlark {
 template <int D>
 class WallContact {
  public:
-  explicit WallContact(const Grid<D>& grid);
+  explicit WallContact(const SoilSides<D>& sides);
 
   bool empty() const { return walls_.empty(); }
   /// How velocities change in a step.
@@ -25,16 +26,16 @@ class WallContact {
   };
   /// Takes the friction of a step from the motion of the faces along the walls. `sums` are folded
   /// into the domain, and behind the walls still as points left them. Collective.
-  void apply(const Change& change, const NodeField<NodeSums, D>& sums,
+  void apply(const SoilSides<D>& sides, const Change& change, const NodeField<NodeSums, D>& sums,
              NodeField<NodeMotion, D>& motion);
 
  private:
   struct Side {
     int axis, side;
-    double coefficient;
-    CellField<D> impulse;  ///< with which it presses, in the cells along it [kg m/s]
+    /// With which it presses, times the coefficient of friction, in the cells along it [kg m/s].
+    CellField<D> impulse;
   };
-  void measure(const Change& change, const NodeField<NodeSums, D>& sums,
+  void measure(const SoilSides<D>& sides, const Change& change, const NodeField<NodeSums, D>& sums,
                const NodeField<NodeMotion, D>& motion);
 
   const Grid<D>* grid_;

@@ -101,7 +101,7 @@ void expect_walls_give_back(Kernel kernel) {
   SoilParticles<D> points = make_cloud(grid, grid.global(), 2, 1.0);
   auto nodes = make_nodes<NodeSums>(grid);
   points_to_grid(grid, points, body, kernel, Transfer::flip, {}, nodes);
-  fold_into_domain(grid, grid.local(), nodes);
+  fold_into_domain(SoilSides<D>(grid), grid.local(), nodes);
   const Sums<D> expected = sum_points(points, body);
   for (int a = 0; a < D; ++a)
     expect_scalars_equal(sum_faces(nodes[static_cast<std::size_t>(a)], faces_of_domain(grid, a)),
@@ -120,7 +120,7 @@ void expect_walls_give_back(Kernel kernel) {
       one_axis.upper[k] = one_axis.lower[k] + std::array{2.5, 1.6, 1.8}[k];
     for (std::size_t k = 1; k < 3; ++k) one_axis.walls[k] = {Wall::open, Wall::open};
     const Grid<D> along(one_axis, MPI_COMM_SELF);
-    fold_into_domain(along, along.local(), only);
+    fold_into_domain(SoilSides<D>(along), along.local(), only);
     for_each(box, [&](const Index<D>& face) {
       momentum += only[static_cast<std::size_t>(a)][face].grain_momentum;
     });
@@ -343,7 +343,7 @@ void expect_uniform_fraction() {
   for (const Kernel kernel : every_kernel) {
     CellField<D> fraction(grid, "fraction", "1");
     add_solid_fraction(grid, points, 2650.0, kernel, 2.0, fraction);
-    fold_cells(grid, grid.local(), fraction);
+    fold_cells(SoilSides<D>(grid), grid.local(), fraction);
     for_each(grid.global(), [&](const Index<D>& c) { EXPECT_NEAR(fraction[c], 1.2, 1e-13); });
   }
 }

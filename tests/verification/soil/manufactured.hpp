@@ -9,7 +9,7 @@
 
 namespace mudlark {
 
-struct Solid {
+struct ElasticSolid {
   double young = 1e7, poisson = 0.3, density = 1000.0;
   double shear() const { return 0.5 * young / (1.0 + poisson); }
   double lame() const { return young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)); }
@@ -19,7 +19,7 @@ struct Solid {
 /// pi t + pi), C = sqrt(E/rho).
 struct AxisAligned {
   static constexpr double pi = std::numbers::pi;
-  Solid solid;
+  ElasticSolid solid;
   double amplitude = 0.05;
 
   double rate() const { return pi * std::sqrt(solid.young / solid.density); }
@@ -60,7 +60,7 @@ struct AxisAligned {
 /// Generalised vortex in the ring 0.75 < R < 1.25 about `centre`: every circle turns by alpha(R, t)
 /// = g(t) h(R), so that the shear varies in space and time and the ring's edges rest.
 struct Vortex {
-  Solid solid{1000.0, 0.3, 1000.0};
+  ElasticSolid solid{1000.0, 0.3, 1000.0};
   double period = 1.0, largest = 1.0;
   Vec<2> centre{{1.5, 1.5}};
 

@@ -17,7 +17,7 @@ struct Scheme {
   double flip_fraction = 1.0;
 };
 
-SoilOptions solid_soil(const Solid& solid, const Scheme& scheme, const Point3& lower,
+SoilOptions solid_soil(const ElasticSolid& solid, const Scheme& scheme, const Point3& lower,
                        const Point3& upper) {
   SoilOptions soil = soil_runs::make_soil(2, lower, upper, false);
   SoilBody& body = soil.bodies[0];

@@ -1,0 +1,257 @@
+/// [[boundary]]
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "input/sections.hpp"
+
+namespace mudlark {
+namespace {
+
+std::string side_name(const SoilBoundary& boundary, int dimension) {
+  constexpr std::array<const char*, 3> axes{"x", "y", "z"};
+  const int axis = dimension == 2 && boundary.axis == 1 ? 2 : boundary.axis;
+  return fmt::format("{}_{}", boundary.side == 0 ? "lower" : "upper",
+                     axes[static_cast<std::size_t>(axis)]);
+}
+
+/// Place of an axis of the grid in (x, y, z).
+std::size_t coordinate(int axis, int dimension) {
+  return static_cast<std::size_t>(dimension == 2 && axis == 1 ? 2 : axis);
+}
+
+void read_side(Section& section, int dimension, SoilBoundary& boundary) {
+  std::vector<Choice<int>> sides;
+  for (int axis = 0; axis < dimension; ++axis)
+    for (int side = 0; side < 2; ++side) {
+      SoilBoundary named;
+      named.axis = axis, named.side = side;
+      sides.push_back({side_name(named, dimension), 2 * axis + side});
+    }
+  const int chosen = section.choice<int>("side", sides);
+  boundary.axis = chosen / 2, boundary.side = chosen % 2;
+}
+
+/// from and to: a number in the plane, a list of two in space (the axes along the side).
+void read_range(Section& section, int dimension, SoilBoundary& boundary) {
+  std::vector<std::size_t> along;
+  for (int axis = 0; axis < dimension; ++axis)
+    if (axis != boundary.axis) along.push_back(coordinate(axis, dimension));
+  for (const auto& [key, range] : {std::pair{"from", &boundary.from}, {"to", &boundary.to}}) {
+    if (!section.has(key)) continue;
+    if (dimension == 2) {
+      (*range)[along[0]] = section.number(key, quantity::length, {});
+      continue;
+    }
+    const auto values = section.numbers(key, quantity::length, 0);
+    if (values.size() != 2 && !values.empty())
+      section.fail(key, fmt::format("two lengths are expected, along {} and {}", "xyz"[along[0]],
+                                    "xyz"[along[1]]));
+    if (values.size() == 2) (*range)[along[0]] = values[0], (*range)[along[1]] = values[1];
+  }
+  const Reading& reading = section.reading();
+  if (!reading.domain || !reading.report.empty()) return;
+  for (const std::size_t a : along) {
+    const double h = reading.spacing[a], lower = reading.domain->lower[a];
+    const double first = std::max(boundary.from[a], lower);
+    const double last = std::min(boundary.to[a], reading.domain->upper[a]);
+    const double next_centre = lower + (std::ceil((first - lower) / h - 0.5) + 0.5) * h;
+    if (!(next_centre < last))
+      return section.fail(section.has("to") ? "to" : "from",
+                          "no cell of the side has its centre between from and to",
+                          fmt::format("The side goes from {:g} to {:g} m in cells of {:g} m.",
+                                      lower, reading.domain->upper[a], h));
+  }
+}
+
+void read_moving(Section& section, SoilBoundary& boundary) {
+  const bool velocity = section.has("velocity"), displacement = section.has("displacement");
+  if (velocity == displacement)
+    section.fail(velocity ? "displacement" : "velocity",
+                 "a side moves with a given velocity or displacement", "Write one of the two.");
+  boundary.motion_is_displacement = displacement;
+  if (displacement)
+    boundary.motion = section.varying_per_axis("displacement", quantity::length);
+  else if (velocity)
+    boundary.motion = section.varying_per_axis("velocity", quantity::velocity);
+  boundary.holds_along =
+      section.choice<bool>("along", {{"fixed", true}, {"slip", false}}, boundary.holds_along);
+}
+
+void read_absorbing(Section& section, SoilBoundary& boundary) {
+  const Bounds share = not_negative("a factor on the dashpot; 1 swallows waves that come straight");
+  boundary.absorber.normal = section.number("normal", quantity::number, share, 1.0);
+  boundary.absorber.tangential = section.number("tangential", quantity::number, share, 1.0);
+  boundary.absorber.thickness =
+      section
+          .number_if_set("spring_thickness", quantity::length,
+                         positive("the thickness of soil that the springs stand for"))
+          .value_or(boundary.absorber.thickness);
+}
+
+const std::vector<Choice<GrainSide>> plain_grains{{"slip", GrainSide::slip},
+                                                  {"fixed", GrainSide::fixed},
+                                                  {"open", GrainSide::open},
+                                                  {"absorbing", GrainSide::absorbing}};
+
+/// A word, or { type = ..., ... }.
+void read_grains(Section& section, SoilBoundary& boundary) {
+  const Value* value = section.raw("grains");
+  if (!value) return;
+  boundary.for_grains = true;
+  if (!std::holds_alternative<Table>(value->data)) {
+    const auto* word = std::get_if<std::string>(&value->data);
+    if (word && (*word == "friction" || *word == "moving"))
+      return section.fail("grains", "it needs more than a word",
+                          *word == "friction"
+                              ? "Write { type = \"friction\", friction_coefficient = 0.5 }."
+                              : "Write { type = \"moving\", displacement = [...] }.");
+    boundary.grains = section.choice<GrainSide>("grains", plain_grains);
+    return;
+  }
+  Section table = section.table("grains", Record::Form::inline_table);
+  std::vector<Choice<GrainSide>> kinds = plain_grains;
+  kinds.push_back({"friction", GrainSide::friction});
+  kinds.push_back({"moving", GrainSide::moving});
+  boundary.grains = table.choice<GrainSide>("type", kinds);
+  if (boundary.grains == GrainSide::friction)
+    boundary.friction =
+        table.number("friction_coefficient", quantity::number,
+                     not_negative("friction cannot push", "0.4 is tan 22 degrees."));
+  if (boundary.grains == GrainSide::moving) read_moving(table, boundary);
+  if (boundary.grains == GrainSide::absorbing) read_absorbing(table, boundary);
+  table.finish();
+}
+
+enum class WaterWord { sealed, drained, seepage_face, pressure, head, inflow };
+
+const std::vector<Choice<WaterWord>> plain_water{{"sealed", WaterWord::sealed},
+                                                 {"drained", WaterWord::drained},
+                                                 {"seepage-face", WaterWord::seepage_face}};
+
+/// The value that belongs to a word.
+void read_water_value(Section& table, WaterWord word, bool level, SoilBoundary& boundary) {
+  if (word == WaterWord::pressure)
+    boundary.value = table.varying("pressure", quantity::pressure, {});
+  if (word == WaterWord::inflow) boundary.value = table.varying("inflow", quantity::velocity, {});
+  if (word != WaterWord::head) return;
+  boundary.value = table.varying("head", quantity::length, {});
+  boundary.is_head = true;
+  if (!level)
+    table.fail("head", "water stands level, and gravity is not vertical here",
+               "Write { type = \"pressure\", pressure = ... }.");
+}
+
+void read_water(Section& section, const DomainOptions& domain, SoilBoundary& boundary) {
+  const Value* value = section.raw("pore_water");
+  if (!value) return;
+  boundary.for_water = true;
+  WaterWord word;
+  if (!std::holds_alternative<Table>(value->data)) {
+    const auto* given = std::get_if<std::string>(&value->data);
+    if (given && (*given == "pressure" || *given == "head" || *given == "inflow"))
+      return section.fail("pore_water", "it needs a value",
+                          fmt::format("Write {{ type = \"{0}\", {0} = ... }}.", *given));
+    word = section.choice<WaterWord>("pore_water", plain_water);
+  } else {
+    Section table = section.table("pore_water", Record::Form::inline_table);
+    std::vector<Choice<WaterWord>> kinds = plain_water;
+    kinds.push_back({"pressure", WaterWord::pressure});
+    kinds.push_back({"head", WaterWord::head});
+    kinds.push_back({"inflow", WaterWord::inflow});
+    word = table.choice<WaterWord>("type", kinds);
+    bool level = true;
+    for (int a = 0; a < domain.dimension - 1; ++a)
+      level = level && domain.gravity[static_cast<std::size_t>(a)] == 0.0;
+    read_water_value(table, word, level, boundary);
+    table.finish();
+  }
+  boundary.water = word == WaterWord::sealed         ? WaterSide::sealed
+                   : word == WaterWord::seepage_face ? WaterSide::seepage_face
+                   : word == WaterWord::inflow       ? WaterSide::inflow
+                                                     : WaterSide::pressure;
+}
+
+bool overlap(const SoilBoundary& one, const SoilBoundary& other, int dimension) {
+  if (one.axis != other.axis || one.side != other.side) return false;
+  for (int axis = 0; axis < dimension; ++axis) {
+    const std::size_t a = coordinate(axis, dimension);
+    if (axis != one.axis &&
+        !(std::max(one.from[a], other.from[a]) < std::min(one.to[a], other.to[a])))
+      return false;
+  }
+  return true;
+}
+
+bool lets_grains_through(GrainSide kind) {
+  return kind == GrainSide::open || kind == GrainSide::absorbing;
+}
+
+/// What cannot hold together on one side.
+void check_together(Section& section, const CaseOptions& options, const SoilBoundary& boundary) {
+  const DomainOptions& domain = options.domain;
+  const Wall wall =
+      domain
+          .walls[static_cast<std::size_t>(boundary.axis)][static_cast<std::size_t>(boundary.side)];
+  if (wall == Wall::periodic)
+    return section.fail("side", "it is periodic: it has no boundary",
+                        "Say under [domain.walls] what else it is.");
+  const bool drains = boundary.for_water && boundary.water != WaterSide::sealed;
+  const bool wall_is_open = !boundary.for_grains && wall == Wall::open;
+  if (drains && (wall_is_open || (boundary.for_grains && lets_grains_through(boundary.grains))))
+    section.fail("pore_water",
+                 "water is held by sides that hold the grains; an open side lets water out at zero "
+                 "pressure, an absorbing one seals it in",
+                 "Write grains = \"slip\" or \"fixed\".");
+  for (const SoilBoundary& other : options.soil->boundaries) {
+    if (!overlap(boundary, other, domain.dimension)) continue;
+    if (boundary.for_grains && other.for_grains)
+      section.fail(
+          "grains",
+          fmt::format("boundary \"{}\" says already what grains do on a part of it", other.name));
+    if (boundary.for_water && other.for_water)
+      section.fail("pore_water",
+                   fmt::format("boundary \"{}\" says already what pore water does on a part of it",
+                               other.name));
+    const bool other_drains = other.for_water && other.water != WaterSide::sealed;
+    if ((drains && other.for_grains && lets_grains_through(other.grains)) ||
+        (other_drains && boundary.for_grains && lets_grains_through(boundary.grains)))
+      section.fail(drains ? "pore_water" : "grains",
+                   fmt::format("boundary \"{}\" overlaps it, and water is held only by sides that "
+                               "hold the grains",
+                               other.name));
+  }
+}
+
+}  // namespace
+
+void read_boundaries(Section& root, CaseOptions& options) {
+  std::vector<Section> sections = root.tables("boundary");
+  if (!sections.empty() && !options.soil)
+    return root.reading().report.add(
+        root.place("boundary"), "[[boundary]] speaks of soil at a side, but there is no [[soil]]");
+  std::vector<std::string> names;
+  for (Section& section : sections) {
+    SoilBoundary boundary;
+    boundary.name = read_name(section, names);
+    const std::size_t before = root.reading().report.size();
+    read_side(section, options.domain.dimension, boundary);
+    const bool known = root.reading().report.size() == before;
+    read_range(section, options.domain.dimension, boundary);
+    read_grains(section, boundary);
+    read_water(section, options.domain, boundary);
+    section.finish();
+    if (!boundary.for_grains && !boundary.for_water)
+      section.missing("grains", "a boundary says what holds for grains, pore_water, or both");
+    const auto& bodies = options.soil->bodies;
+    if (boundary.for_water && std::none_of(bodies.begin(), bodies.end(), [](const SoilBody& body) {
+          return body.pore_water == PoreWater::two_phase;
+        }))
+      section.fail("pore_water", "no soil of this case has pore water");
+    if (known) check_together(section, options, boundary);
+    options.soil->boundaries.push_back(std::move(boundary));
+  }
+}
+
+}  // namespace mudlark
