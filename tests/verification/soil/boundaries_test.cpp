@@ -68,8 +68,7 @@ double speed_of(int component) {
 
 /// A bar along x, 3 cells thick, whose lower side is pushed along a component.
 template <int D>
-SoilSolver<D> pushed_bar(const Grid<D>& grid, int component, bool velocity,
-                         const std::vector<SoilBoundary>& others) {
+SoilOptions pushed_bar(int component, bool velocity, const std::vector<SoilBoundary>& others) {
   SoilOptions options = filled(D);
   SoilBoundary side = grain_side(0, 0, GrainSide::moving);
   const auto u = static_cast<std::size_t>(component == D - 1 ? 2 : component);
@@ -81,9 +80,7 @@ SoilSolver<D> pushed_bar(const Grid<D>& grid, int component, bool velocity,
           : push(size, rise);
   options.boundaries = others;
   options.boundaries.push_back(side);
-  SoilSolver<D> soil(grid, options);
-  soil.initialise();
-  return soil;
+  return options;
 }
 template <int D>
 Grid<D> bar_grid(int cells) {
@@ -100,7 +97,8 @@ void run_until(SoilSolver<D>& soil, double end, double courant = 0.4) {
 template <int D>
 void expect_wave(int cells, int component, bool velocity, double tolerance) {
   const Grid<D> grid = bar_grid<D>(cells);
-  SoilSolver<D> soil = pushed_bar(grid, component, velocity, {});
+  SoilSolver<D> soil(grid, pushed_bar<D>(component, velocity, {}));
+  soil.initialise();
   const double speed = speed_of(component), end = 1.5 / speed;
   run_until(soil, end);
   const double error = wave_error(soil, component, pulse / speed, speed, end);
@@ -149,7 +147,9 @@ TEST(MovingSide, CompressesABarUniformly) {
 template <int D>
 double reflection(int cells, int component) {
   const Grid<D> grid = bar_grid<D>(cells);
-  SoilSolver<D> soil = pushed_bar(grid, component, false, {grain_side(0, 1, GrainSide::absorbing)});
+  SoilSolver<D> soil(grid,
+                     pushed_bar<D>(component, false, {grain_side(0, 1, GrainSide::absorbing)}));
+  soil.initialise();
   const double speed = speed_of(component);
   run_until(soil, 3.4 / speed);  // it has left, or is on its way back
   double worst = 0.0;
@@ -175,7 +175,8 @@ TEST(AbsorbingSide, SpringsStandForTheSoilBehind) {
   const Grid<2> grid = bar_grid<2>(20);
   SoilBoundary side = grain_side(0, 1, GrainSide::absorbing);
   side.absorber.thickness = 1.0;
-  SoilSolver<2> soil = pushed_bar(grid, 0, false, {side});
+  SoilSolver<2> soil(grid, pushed_bar<2>(0, false, {side}));
+  soil.initialise();
   run_until(soil, 30.0 / speed_of(0));
   const auto& points = soil.points(0);
   const double exact = -young * size / 3.0;
