@@ -72,6 +72,8 @@ void read_law(Section& soil, SoilBody& body) {
   if (reader) body.law = reader(section);
   if (auto* law = std::get_if<SekiguchiOhtaOptions>(&body.law))
     resolve_dilatancy(section, body.porosity, *law);
+  if (const auto* law = std::get_if<SanisandOptions>(&body.law))
+    check_settled_void_ratio(section, body.porosity, *law);
   if (auto* law = std::get_if<MuIOptions>(&body.law)) law->grain_density = body.grain_density;
   const bool good = report.size() == before;
   const bool yields = good && reader && make_soil_model(body.law)->yields();

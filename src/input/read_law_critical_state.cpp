@@ -150,6 +150,16 @@ void resolve_dilatancy(Section& section, double porosity, SekiguchiOhtaOptions& 
                  "Clay has 0.02-0.1; or give critical_stress_ratio instead.");
 }
 
+void check_settled_void_ratio(Section& section, double porosity, const SanisandOptions& law) {
+  const double start = porosity / (1.0 - porosity);
+  if (law.settled_void_ratio >= start)
+    section.fail("settled_void_ratio",
+                 fmt::format("not below the void ratio of the start, n/(1-n) = {:.3f}: sand that "
+                             "liquefies settles to a denser state",
+                             start),
+                 "It is usually 0.02-0.1 smaller; without the key the sand keeps its structure.");
+}
+
 SoilLawOptions read_sanisand(Section& section) {
   std::optional<SanisandOptions> sand;
   if (section.has("sand"))
@@ -170,6 +180,13 @@ SoilLawOptions read_sanisand(Section& section) {
       section.number("reference_pressure", quantity::pressure,
                      positive("the pressure that the parameters were fitted with"), 1e5);
   law.mean_stress_floor = read_mean_stress_floor(section);
+  law.settled_void_ratio =
+      section
+          .number_if_set("settled_void_ratio", quantity::number,
+                         positive("the void ratio of sand that has liquefied and settled",
+                                  "It lies below that of the start; without the key liquefied sand "
+                                  "keeps its void ratio until water drains from it."))
+          .value_or(0.0);
   return law;
 }
 

@@ -48,6 +48,8 @@ SoilLawOptions read_sanisand(Section& law);
 SoilLawOptions read_sekiguchi_ohta(Section& law);
 /// M from D and the porosity of the body, where the case gives D.
 void resolve_dilatancy(Section& section, double porosity, SekiguchiOhtaOptions& law);
+/// Sand that liquefies settles to a void ratio below that of the body's porosity.
+void check_settled_void_ratio(Section& section, double porosity, const SanisandOptions& law);
 /// A law that the user compiled.
 SoilLawOptions read_umat(Section& law);
 /// [[wave]]: after [domain] and [water].

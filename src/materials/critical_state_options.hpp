@@ -43,7 +43,9 @@ struct SanisandOptions {
   double largest_fabric = 0.0;         ///< z_max [-]
   double fabric_rate = 0.0;            ///< c_z [-]
   double reference_pressure = 1e5;     ///< p_at [Pa]
-  double mean_stress_floor = 500.0;    ///< below it stiffness falls no further [Pa]
+  double mean_stress_floor = 500.0;  ///< below it moduli fall with p, and h and psi not at all [Pa]
+  /// Void ratio at which grains that were shaken apart touch again [-]; 0: the present one.
+  double settled_void_ratio = 0.0;
 
   /// Toyoura sand, Table 1 there.
   static SanisandOptions toyoura() {

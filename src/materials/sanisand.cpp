@@ -31,6 +31,8 @@ constexpr std::size_t variables = names.size(), void_ratio_at = 18, separation_a
 /// Mean stress of grains that hardly touch, in units of the floor.
 constexpr double hardly = 0.02;
 constexpr double tolerance = 1e-4;  ///< relative error of a sub-step
+/// Smallest share of a step from a stress below the floor; it is taken whatever its error.
+constexpr double rough = 1e-3;
 /// Allowed yield function, in units of p.
 constexpr double on_surface = 1e-8;
 constexpr double root_two_thirds = 0.81649658092772603;
@@ -65,18 +67,21 @@ void Sanisand::initialise_history(std::span<const SymTensor> stress, double poro
   }
 }
 
-/// G = G_0 p_at (2.97 - e)^2 / (1 + e) sqrt(p / p_at).
+/// G = G_0 p_at (2.97 - e)^2 / (1 + e) sqrt(p / p_at); below the floor it falls with p, so that
+/// the stress ratio never changes faster with strain than it does there.
 double Sanisand::shear(double pressure, double void_ratio) const {
-  const double space = 2.97 - void_ratio;
-  return options_.shear_coefficient * space * space / (1.0 + void_ratio) *
-         std::sqrt(options_.reference_pressure * std::max(pressure, options_.mean_stress_floor));
+  const double space = 2.97 - void_ratio, floor = options_.mean_stress_floor;
+  const double level = std::sqrt(options_.reference_pressure * std::max(pressure, floor)) *
+                       std::clamp(pressure, least_, floor) / floor;
+  return options_.shear_coefficient * space * space / (1.0 + void_ratio) * level;
 }
 
 double Sanisand::wave_modulus(std::span<const SymTensor> stress,
                               std::span<const double> history) const {
   double largest = stress.empty() ? shear_modulus() : 0.0;
   for (std::size_t i = 0; i < stress.size(); ++i)
-    largest = std::max(largest, shear(-mean_of(stress[i]), history[i * variables + void_ratio_at]));
+    largest = std::max(largest, shear(std::max(-mean_of(stress[i]), options_.mean_stress_floor),
+                                      history[i * variables + void_ratio_at]));
   return largest * (bulk_ratio_ + 4.0 / 3.0);
 }
 
@@ -93,17 +98,21 @@ double Sanisand::critical_void_ratio(double pressure) const {
                                             options_.critical_exponent);
 }
 
-/// Exact for the mean stress at the void ratio of mid-step: int dp / sqrt(max(p, floor)).
+/// Exact for the mean stress at the void ratio of mid-step: with K = k sqrt(p) above the floor and
+/// k p / sqrt(floor) below it, k times the strain is the change of 2 (sqrt(p) - sqrt(floor)) or
+/// sqrt(floor) ln(p / floor).
 SymTensor Sanisand::elastic_stress(const State& state, const SymTensor& strain) const {
-  const double volumetric = strain.trace(), pressure = mean_of(state.stress);
+  const double volumetric = strain.trace(), pressure = std::max(mean_of(state.stress), least_);
   const double middle = state.void_ratio - 0.5 * (1.0 + state.void_ratio) * volumetric;
   double bulk = bulk_ratio_ * shear(pressure, middle);
   if (std::abs(volumetric) > 1e-10) {
     const double floor = options_.mean_stress_floor, root = std::sqrt(floor);
-    const double unit = bulk / std::sqrt(std::max(pressure, floor));
-    const double start = pressure > floor ? 2.0 * std::sqrt(pressure) - root : pressure / root;
+    const double unit = bulk * std::sqrt(std::max(pressure, floor)) / pressure;
+    const double start =
+        pressure > floor ? 2.0 * (std::sqrt(pressure) - root) : root * std::log(pressure / floor);
     const double end = start + unit * volumetric;
-    const double after = end > root ? 0.25 * (end + root) * (end + root) : end * root;
+    const double above = root + 0.5 * end;
+    const double after = end > 0.0 ? above * above : floor * std::exp(end / root);
     bulk = (after - pressure) / volumetric;
   }
   return state.stress + isotropic_stress(bulk, bulk / bulk_ratio_, strain);
@@ -155,11 +164,15 @@ Sanisand::Flow Sanisand::flow(const State& state) const {
       b * n + -skew * difference(n2, (n2.trace() / 3.0) * SymTensor::identity());
   flow.ratio = contraction(n, ratio);
   flow.stress = 2.0 * shear * direction + (bulk * dilatancy) * SymTensor::identity();
-  flow.back = (2.0 / 3.0 * hardening) * difference(bounding * n, state.back);
   const double rises = o.fabric_rate * std::max(0.0, -dilatancy);
   flow.fabric = -rises * (o.largest_fabric * n + state.fabric);
-  flow.resistance = 2.0 / 3.0 * pressure * hardening * (bounding - along) +
-                    2.0 * shear * contraction(n, direction) - bulk * flow.ratio * dilatancy;
+  const double elastic = 2.0 * shear * contraction(n, direction) - bulk * flow.ratio * dilatancy;
+  const double hardens = 2.0 / 3.0 * pressure * hardening * (bounding - along);
+  // Beyond the bounding surface, where a turn of the loading may have left it, the cone softens;
+  // right after a reversal it would do so at an infinite rate.
+  const double share = hardens < -0.5 * elastic ? -0.5 * elastic / hardens : 1.0;
+  flow.back = (2.0 / 3.0 * share * hardening) * difference(bounding * n, state.back);
+  flow.resistance = share * hardens + elastic;
   return flow;
 }
 
@@ -210,6 +223,14 @@ double Sanisand::elastic_share(const State& state, const SymTensor& strain) cons
   return 0.0;
 }
 
+/// Sand that has lost all stress in shear has lost its loose structure: its grains sink until they
+/// touch in a denser one. The volumetric strain until then, 0 where they stay in touch.
+double Sanisand::gap_when_shaken_apart(const State& state) const {
+  const double settled = options_.settled_void_ratio;
+  if (settled <= 0.0 || mean_of(state.stress) > least_ * (1.0 + 1e-12)) return 0.0;
+  return std::max(0.0, std::log((1.0 + state.void_ratio) / (1.0 + settled)));
+}
+
 /// Grains that meet again without a stress to start from: an elastic step, no steeper than the
 /// critical state, and a cone around it.
 void Sanisand::touch_down(State& state, const SymTensor& strain) const {
@@ -233,8 +254,12 @@ bool Sanisand::advance(State& state, const SymTensor& strain) const {
   const SymTensor away = difference(stress_ratio(state.stress), state.back);
   if (contraction(difference(state.back, state.back_start), away) < 0.0)
     state.back_start = state.back;
+  // Below the floor the cone is crossed by the smallest strains, and the law jumps at each turn.
+  const SubstepControl control = mean_of(state.stress) < options_.mean_stress_floor
+                                     ? SubstepControl{tolerance, rough, true}
+                                     : SubstepControl{tolerance};
   return integrate_in_substeps(
-      state, (1.0 - share) * strain, SubstepControl{tolerance},
+      state, (1.0 - share) * strain, control,
       [this](const State& s, const SymTensor& e) { return rate(s, e); },
       [this](State& s) { return correct(s); });
 }
@@ -250,13 +275,17 @@ bool Sanisand::update_point(SymTensor& stress, const SymTensor& strain_increment
   bool apart = still_apart(separation, rest);
   state.void_ratio = (1.0 + start) * std::exp(strain_increment.trace() - rest.trace()) - 1.0;
   const bool opens = rest.trace() > 0.0;
-  if (!apart && !(opens && mean_of(elastic_stress(state, -1.0 * rest)) <= 0.0)) {
+  if (!apart && !(opens && mean_of(elastic_stress(state, -1.0 * rest)) <= least_)) {
     if (!stress_free) {
       if (!advance(state, -1.0 * rest)) return false;
+      if (const double gap = gap_when_shaken_apart(state); gap > 0.0) {
+        separation = gap;
+        state.fabric = {};
+      }
     } else if (rest.squared_norm() > 0.0) {
       touch_down(state, -1.0 * rest);
     }
-    apart = opens && mean_of(state.stress) <= least_ * (1.0 + 1e-12);
+    apart = separation > 0.0 || (opens && mean_of(state.stress) <= least_ * (1.0 + 1e-12));
   } else {
     apart = true;
   }

@@ -22,7 +22,9 @@ class Sanisand final : public SoilModel {
                           std::span<double> history) const override;
   double wave_modulus(std::span<const SymTensor> stress,
                       std::span<const double> history) const override;
-  double shear_modulus() const override { return shear(0.0, options_.critical_void_ratio); }
+  double shear_modulus() const override {
+    return shear(options_.mean_stress_floor, options_.critical_void_ratio);
+  }
   double earth_pressure_at_rest() const override;
   std::size_t update_stress(const MaterialPoints& points) const override;
 
@@ -48,7 +50,7 @@ class Sanisand final : public SoilModel {
       return a;
     }
     friend double relative_error(const State& error, const State& state) {
-      constexpr double scale = 500.0;  // [Pa]
+      constexpr double scale = 10.0;  // [Pa]: larger ones hold up sand that flows to nothing
       const double size = std::sqrt(state.stress.squared_norm());
       const double stress = std::sqrt(error.stress.squared_norm()) / (size + scale);
       // What an error of the cone means for the stress.
@@ -75,6 +77,7 @@ class Sanisand final : public SoilModel {
   State rate(const State& state, const SymTensor& strain) const;
   bool correct(State& state) const;
   double elastic_share(const State& state, const SymTensor& strain) const;
+  double gap_when_shaken_apart(const State& state) const;
   void touch_down(State& state, const SymTensor& strain) const;
   bool advance(State& state, const SymTensor& strain) const;
   bool update_point(SymTensor& stress, const SymTensor& strain, double* history) const;

@@ -11,8 +11,9 @@
 namespace mudlark {
 
 struct SubstepControl {
-  double tolerance = 1e-5;  ///< relative error of a sub-step
-  double smallest = 1e-7;   ///< share of the increment below which a point counts as failed
+  double tolerance = 1e-5;       ///< relative error of a sub-step
+  double smallest = 1e-7;        ///< share of the increment below which a point counts as failed
+  bool accept_smallest = false;  ///< takes the smallest sub-steps as they are instead
 };
 
 /// Goes through an increment in sub-steps. `attempt(share)` tries one over that share of it, moves
@@ -58,7 +59,9 @@ bool integrate_in_substeps(State& state, const SymTensor& strain, const SubstepC
     const State first = rate(state, part);
     const State second = rate(state + first, part);
     State next = state + 0.5 * (first + second);
-    const double error = relative_error(0.5 * (second + -1.0 * first), next);
+    double error = relative_error(0.5 * (second + -1.0 * first), next);
+    if (control.accept_smallest && share <= control.smallest && std::isfinite(error))
+      error = std::min(error, control.tolerance);
     if (!(error <= control.tolerance)) return error;
     if (!correct(next)) return std::numeric_limits<double>::infinity();
     state = next;

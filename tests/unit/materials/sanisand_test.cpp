@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "materials/invariants.hpp"
 #include "unit/materials/strain_paths.hpp"
 
@@ -44,6 +46,26 @@ TEST(Sanisand, ShearsUndrainedAlongTheTriaxialFormOfTheLaw) {
       EXPECT_NEAR(shear_of(sand), 1e3 * row.shear[i], 2e-3 * 1e3 * row.shear[i]);
     }
   }
+}
+
+/// Where contraction turns into dilation, and the peak before sand gets weak: the triaxial form of
+/// the law, integrated by itself.
+TEST(Sanisand, TurnsFromContractionToDilationWhereTheTriaxialFormDoes) {
+  Sand medium(0.833, 1e6);
+  double least = 1e6, shear = 0.0;
+  for (int i = 0; i < 500; ++i) {
+    medium.strain(undrained(1e-4));
+    if (pressure_of(medium) < least) least = pressure_of(medium), shear = shear_of(medium);
+  }
+  EXPECT_NEAR(least, 659.5e3, 5e-3 * 659.5e3);
+  EXPECT_NEAR(shear, 743e3, 0.01 * 743e3);
+  Sand loose(0.907, 1e6);
+  double peak = 0.0;
+  for (int i = 0; i < 500; ++i) {
+    loose.strain(undrained(2e-5));
+    peak = std::max(peak, shear_of(loose));
+  }
+  EXPECT_NEAR(peak, 425.8e3, 5e-3 * 425.8e3);
 }
 
 /// p_ss = p_at ((e_0 - e) / lambda_c)^(1/xi), q_ss = M p_ss.
@@ -127,6 +149,45 @@ TEST(Sanisand, PulledApartCarriesNothingUntilItsGapHasClosed) {
   sand.strain(-1e-3 * SymTensor::identity(), 10);
   EXPECT_EQ(sand.history[19], 0.0);
   EXPECT_GT(pressure_of(sand), 500.0);
+}
+
+/// Sand that a turn of the loading left beyond its bounding surface, at hardly any stress: found in
+/// a shaken column.
+TEST(Sanisand, GoesOnFromBeyondItsBoundingSurfaceInAnyDirection) {
+  std::mt19937 generator(1);
+  std::normal_distribution<double> any;
+  for (const double size : {1e-6, 1e-4, 1e-2})
+    for (int i = 0; i < 300; ++i) {
+      Sand sand(0.818, 100.0);
+      sand.stress = {-112.4, -22.22, -126.7, 0, 0, -41.72};
+      sand.history = {0.292, -0.7403, 0.4482,  0,      0,       0.4774, 0.2955, -0.7412, 0.4457, 0,
+                      0,     0.4796,  -0.4534, 0.8286, -0.3752, 0,      0,      -0.1332, 0.818,  0};
+      sand.strain({size * any(generator), 0, size * any(generator), 0, 0, size * any(generator)});
+      ASSERT_TRUE(std::isfinite(sand.stress.squared_norm()));
+    }
+}
+
+/// The loosest Toyoura sand flows; its grains then sink until they touch at the void ratio given.
+TEST(Sanisand, ShakenApartCarriesNothingUntilItHasSettled) {
+  SanisandOptions options = SanisandOptions::toyoura();
+  options.settled_void_ratio = 0.85;
+  const Sanisand law(options);
+  TestPoint sand(law, {-2500, -2500, -5000, 0, 0, 0});
+  law.initialise_history({&sand.stress, 1}, 0.96 / 1.96, sand.history);
+  double sign = 1.0;
+  for (int i = 0; i < 10000 && sand.stress.zz < 0.0; ++i) {
+    sand.strain({0, 0, 0, 0, 0, sign * 1e-5});
+    if (sign * sand.stress.zx > 500.0) sign = -sign;
+  }
+  EXPECT_EQ(sand.stress, SymTensor{});
+  EXPECT_NEAR(sand.history[18], 0.96, 1e-12);
+  const double gap = std::log(1.96 / 1.85);
+  EXPECT_NEAR(sand.history[19], gap, 1e-12);
+  sand.strain({0, 0, -0.99 * gap, 0, 0, 0.01}, 100);
+  EXPECT_EQ(sand.stress, SymTensor{});
+  sand.strain({0, 0, -0.06 * gap, 0, 0, 0}, 20);
+  EXPECT_LT(sand.stress.zz, -500.0);
+  EXPECT_NEAR(sand.history[18], 0.85, 0.01);
 }
 
 TEST(Sanisand, IsAsStiffAgainstWavesAsAgainstASmallUnloading) {
