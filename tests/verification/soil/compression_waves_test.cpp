@@ -75,5 +75,41 @@ TEST(CompressionWaves, CreepIntoDenseSoilUnderWater) {
   expect_pressures(1e-5, LoadedPhase::water, {29.22, 33.15, 37.25});
 }
 
+/// The block wave of Verruijt (2010), An Introduction to Soil Dynamics, and of the Anura3D
+/// verification manual (2021), 2.2: 2 kPa of water pressure at once. After 40 ms the undrained wave
+/// (13.8 m/s) has come back from the base, and the damped one (3.24 m/s) is between the places
+/// asked. sigma' [Pa] of the exact modal solution; the manual prints -733.52 at x = 0.40025.
+TEST(CompressionWaves, OfABlockOfWaterPressureTravelAtTwoSpeeds) {
+  constexpr double tall = 0.5, h = tall / 320;
+  const Grid<2> grid = soil_runs::make_grid<2>({2, 324, 1}, h, "ssso", 0.0, MPI_COMM_WORLD);
+  SoilOptions options = soil_runs::make_soil(2, {-1, -1, -1}, {1, 1, tall}, true);
+  SoilBody& body = options.bodies[0];
+  body.porosity = 0.1, body.grain_density = 2222.0, body.intrinsic_permeability = 1e-9;
+  body.law = LinearElasticOptions{180e3, 0.2};
+  body.strain = StrainMeasure::small;
+  options.water_bulk_modulus = 20e3, options.water_viscosity = 1e-3;
+  constexpr double less = 1e-3;  // a thousandth of the load: the solution is that of small strains
+  options.loads.push_back({"block", Varying(less * 2000.0), LoadedPhase::water});
+  SoilSolver<2> soil(grid, options);
+  soil.initialise();
+  double time = 0.0;
+  const int steps = static_cast<int>(std::ceil(0.04 / soil.stable_step()));
+  soil_runs::run(soil, time, steps, 0.04 / steps);
+  constexpr std::array<double, 5> height_of{0.2, 0.3, 0.40025, 0.42, 0.45},
+      exact{-999.98, -1000.0, -733.4, -614.35, -403.00};
+  const auto& points = soil.points(0);
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    std::array<double, 2> mine{}, all{};  // linear between the rows of points around the place
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      const double weight = 1.0 - std::abs(points.start[1][p] - height_of[i]) / (0.5 * h);
+      if (weight > 0.0) mine[0] += weight * points.stress[2][p], mine[1] += weight;
+    }
+    MPI_Allreduce(mine.data(), all.data(), 2, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    const double stress = all[0] / all[1] / less;
+    std::printf("x = %g m: %.1f Pa, exact %.1f Pa\n", height_of[i], stress, exact[i]);
+    EXPECT_NEAR(stress, exact[i], 0.03 * std::abs(exact[i]));
+  }
+}
+
 }  // namespace
 }  // namespace mudlark
