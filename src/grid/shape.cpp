@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "grid/height_map.hpp"
 #include "grid/triangle_mesh.hpp"
 
 namespace mudlark {
@@ -58,6 +59,10 @@ bool inside(const BelowShape& below, const Point3& position) {
     return position[2] <= line[i - 1][1] + share * (line[i][1] - line[i - 1][1]);
   }
   return position[2] <= line.back()[1];
+}
+
+bool inside(const HeightMapShape& ground, const Point3& position) {
+  return position[2] <= ground.map->height_at(position[0], position[1]);
 }
 
 bool inside(const StlShape& stl, const Point3& position) { return stl.mesh->contains(position); }
@@ -151,6 +156,12 @@ BoxShape bounds_of(const BelowShape& below) {
   return box;
 }
 
+BoxShape bounds_of(const HeightMapShape& ground) {
+  BoxShape box = everywhere;
+  box.upper[2] = ground.map->highest();
+  return box;
+}
+
 BoxShape bounds_of(const StlShape& stl) { return {stl.mesh->lower(), stl.mesh->upper()}; }
 
 BoxShape bounds_of(const UnionShape& whole) {
@@ -177,6 +188,11 @@ double fraction_inside(const Shape& shape, const Point3& lower, const Point3& up
                        int dimension) {
   if (const auto* box = std::get_if<BoxShape>(&shape.form))
     return box_fraction(*box, lower, upper, dimension);
+  if (const auto* ground = std::get_if<HeightMapShape>(&shape.form)) {
+    const auto [lowest, highest] = ground->map->range(lower, upper);
+    if (upper[2] <= lowest) return 1.0;
+    if (lower[2] > highest) return 0.0;
+  }
   if (const auto* stl = std::get_if<StlShape>(&shape.form)) {
     Point3 middle{};
     double reach2 = 0.0;

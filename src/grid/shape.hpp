@@ -9,6 +9,7 @@
 namespace mudlark {
 
 struct Shape;
+class HeightMap;
 class TriangleMesh;
 
 /// All lengths in metres; positions are (x, y, z), in 2D y = 0 and boxes span every y.
@@ -37,6 +38,10 @@ struct CylinderShape {
 struct BelowShape {
   std::vector<std::array<double, 2>> line;
 };
+/// Everything below heights on a lattice; 3D only.
+struct HeightMapShape {
+  std::shared_ptr<const HeightMap> map;
+};
 /// Inside of a closed surface of triangles; 3D only.
 struct StlShape {
   std::shared_ptr<const TriangleMesh> mesh;
@@ -50,16 +55,16 @@ struct DifferenceShape {
 };
 
 struct Shape {
-  std::variant<BoxShape, PolygonShape, SphereShape, CylinderShape, BelowShape, StlShape, UnionShape,
-               DifferenceShape>
+  std::variant<BoxShape, PolygonShape, SphereShape, CylinderShape, BelowShape, HeightMapShape,
+               StlShape, UnionShape, DifferenceShape>
       form;
 
   bool contains(const Point3& position) const;
 };
 
 /// Share of the box [lower, upper] that lies inside the shape, 0..1: exact for boxes, by regular
-/// sampling (16 points per axis in 2D, 8 in 3D) otherwise; surfaces of triangles are sampled only
-/// where they may cross the box.
+/// sampling (16 points per axis in 2D, 8 in 3D) otherwise; height maps and surfaces of triangles
+/// are sampled only where they may cross the box.
 double fraction_inside(const Shape& shape, const Point3& lower, const Point3& upper, int dimension);
 
 /// Smallest box around a shape; sides to which the shape has no end are infinite.

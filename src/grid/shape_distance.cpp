@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "grid/height_map.hpp"
 #include "grid/triangle_mesh.hpp"
 
 namespace mudlark {
@@ -150,6 +151,10 @@ SurfaceDistance distance(const DifferenceShape& whole, const Point3& position) {
       nearest = {-hole.distance, {-hole.normal[0], -hole.normal[1], -hole.normal[2]}};
   }
   return nearest;
+}
+
+SurfaceDistance distance(const HeightMapShape& ground, const Point3& position) {
+  return ground.map->distance_to(position);
 }
 
 SurfaceDistance distance(const StlShape& stl, const Point3& position) {

@@ -2,72 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-#include <cmath>
+#include <algorithm>
 #include <fstream>
-#include <optional>
-#include <string_view>
 
 #include "base/errors.hpp"
+#include "input/text_columns.hpp"
 
 namespace mudlark {
 namespace {
-
-constexpr std::string_view blanks = " \t\r";
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return {};
-  text = text.substr(first, text.find_last_not_of(blanks) - first + 1);
-  if (text.size() >= 2 && text.front() == '"' && text.back() == '"')
-    text = text.substr(1, text.size() - 2);
-  return text;
-}
-
-/// What separates the columns of a line.
-char separator_of(std::string_view line) {
-  for (const char c : {';', ',', '\t'})
-    if (line.find(c) != std::string_view::npos) return c;
-  return ' ';
-}
-
-std::vector<std::string_view> fields_of(std::string_view line, char separator) {
-  std::vector<std::string_view> fields;
-  if (separator == ' ') {
-    for (std::size_t at = line.find_first_not_of(blanks); at != std::string_view::npos;) {
-      const std::size_t end = std::min(line.find_first_of(blanks, at), line.size());
-      fields.push_back(line.substr(at, end - at));
-      at = line.find_first_not_of(blanks, end);
-    }
-    return fields;
-  }
-  for (std::size_t at = 0;;) {
-    const std::size_t end = line.find(separator, at);
-    fields.push_back(trimmed(line.substr(at, end - at)));
-    if (end == std::string_view::npos) return fields;
-    at = end + 1;
-  }
-}
-
-std::optional<double> number_of(std::string_view text) {
-  if (text.starts_with('+')) text.remove_prefix(1);
-  double number = 0.0;
-  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc{} || stop != text.data() + text.size() || !std::isfinite(number))
-    return {};
-  return number;
-}
-
-/// "time [s]": the part between the brackets.
-std::string unit_in(std::string_view title) {
-  const std::size_t open = title.find('['), close = title.rfind(']');
-  if (open == std::string_view::npos || close == std::string_view::npos || close < open) return {};
-  return std::string(trimmed(title.substr(open + 1, close - open - 1)));
-}
-
-std::string_view name_in(std::string_view title) {
-  return trimmed(title.substr(0, title.find('[')));
-}
 
 /// Reads one file line by line.
 class Reader {
