@@ -16,16 +16,18 @@ CaseOptions read_case(const std::filesystem::path& file, std::span<const std::st
   Section root(&document, {file.string(), 1}, "", reading, record);
   options.title = root.text("title", file.stem().string());
   read_domain(root, options);
+  std::vector<Stage> stages = read_stages(root, options);
   const std::optional<double> courant = read_time(root, options);
   const WaterProperties water = read_water(root, options);
   read_porous(root, options, grounds);
-  read_soil(root, options, water, grounds);
+  read_soil(root, options, water, stages, grounds);
   read_solids(root, options);
   read_coupling(root, options);
   read_loads(root, options);
   read_boundaries(root, options);
   read_waves(root, options);
   read_solvers(root, options, courant);
+  finish_stages(stages, options);
   read_gauges(root, options);
   check_overlaps(reading, grounds);
   if (!root.has("soil") && !options.flow)

@@ -113,15 +113,58 @@ std::optional<Shape> read_cylinder(Section& section) {
   return Shape{cylinder};
 }
 
-std::optional<Shape> read_below(Section& section) {
-  const BelowShape below{section.pairs("line", quantity::length)};
-  if (below.line.empty()) return {};
-  for (std::size_t i = 1; i < below.line.size(); ++i)
-    if (below.line[i][0] <= below.line[i - 1][0]) {
-      section.fail("line", "x must grow from point to point of the ground line");
-      return {};
+/// The part of [0, 1) that the i-th point of Halton's sequence takes along an axis (van der Corput,
+/// 1935).
+double radical_inverse(int i, int base) {
+  double value = 0.0, digit = 1.0 / base;
+  for (; i > 0; i /= base, digit /= base) value += digit * (i % base);
+  return value;
+}
+
+/// The i-th of many places spread over a box.
+Point3 place_in(const BoxShape& box, int i) {
+  constexpr std::array<int, 3> bases{2, 3, 5};
+  Point3 place;
+  for (std::size_t a = 0; a < 3; ++a)
+    place[a] = std::isinf(box.upper[a])
+                   ? 0.0
+                   : box.lower[a] + (box.upper[a] - box.lower[a]) * radical_inverse(i, bases[a]);
+  return place;
+}
+
+bool has_room(const Shape& shape, const BoxShape& domain) {
+  constexpr int samples = 16384;
+  for (int i = 1; i <= samples; ++i)
+    if (shape.contains(place_in(domain, i))) return true;
+  return false;
+}
+
+/// What of the domain lies over a ground.
+std::optional<Shape> read_above(Section& section) {
+  auto ground = read_ground(section);
+  const auto& domain = section.reading().domain;
+  if (!ground || !domain) return {};
+  return Shape{DifferenceShape{{Shape{*domain}, std::move(*ground)}}};
+}
+
+/// Below one ground and above another.
+std::optional<Shape> read_between(Section& section) {
+  std::vector<Shape> grounds;
+  for (const std::string_view key : {"upper", "lower"}) {
+    if (!section.has(key)) {
+      section.missing(key, "for example { line = [[0, 1], [10, 2]] }");
+      continue;
     }
-  return Shape{below};
+    Section part = section.table(key, Record::Form::inline_table);
+    if (auto ground = read_ground(part)) grounds.push_back(std::move(*ground));
+    part.finish();
+  }
+  const auto& domain = section.reading().domain;
+  if (grounds.size() != 2 || !domain) return {};
+  Shape layer{DifferenceShape{std::move(grounds)}};
+  if (has_room(layer, *domain)) return layer;
+  section.fail("lower", "it lies above the upper ground everywhere: nothing is between them");
+  return {};
 }
 
 /// union and difference: a list of shapes.
@@ -154,8 +197,8 @@ std::optional<Shape> read_parts(Section& shape, std::string_view key, int depth)
 std::optional<Shape> read_form(Section& shape, const Place& place, int depth) {
   const bool flat = shape.reading().dimension == 2;
   std::vector<std::string> found;
-  for (const std::string key :
-       {"box", "polygon", "circle", "sphere", "cylinder", "below", "union", "difference", "stl"})
+  for (const std::string key : {"box", "polygon", "circle", "sphere", "cylinder", "below", "above",
+                                "between", "union", "difference", "stl"})
     if (shape.has(key)) found.push_back(key);
   if (found == std::vector<std::string>{"stl"}) {
     if (flat) {
@@ -174,7 +217,8 @@ std::optional<Shape> read_form(Section& shape, const Place& place, int depth) {
     shape.reading().report.add(
         place,
         fmt::format("{} needs exactly one form\n  (box, polygon, circle, sphere, cylinder, below, "
-                    "union, difference, stl). For example {{ box = {{ lower = [0, 0], upper = [1, "
+                    "above, between, union, difference, stl). For example {{ box = {{ lower = [0, "
+                    "0], upper = [1, "
                     "1] }} }}.",
                     shape.path()));
     return {};
@@ -190,7 +234,9 @@ std::optional<Shape> read_form(Section& shape, const Place& place, int depth) {
   auto form = key == "box"        ? read_box(section)
               : key == "polygon"  ? read_polygon(section)
               : key == "cylinder" ? read_cylinder(section)
-              : key == "below"    ? read_below(section)
+              : key == "below"    ? read_ground(section)
+              : key == "above"    ? read_above(section)
+              : key == "between"  ? read_between(section)
                                   : read_sphere(section, key == "circle");
   section.finish();
   return form;
@@ -208,14 +254,6 @@ bool inside_domain(const BoxShape& box, const BoxShape& domain, bool may_leave) 
   return touches && (may_leave || !leaves);
 }
 
-/// The part of [0, 1) that the i-th point of Halton's sequence takes along an axis (van der Corput,
-/// 1935).
-double radical_inverse(int i, int base) {
-  double value = 0.0, digit = 1.0 / base;
-  for (; i > 0; i /= base, digit /= base) value += digit * (i % base);
-  return value;
-}
-
 bool overlap(const Shape& one, const Shape& other, const BoxShape& domain) {
   constexpr double largest_slack = 1e3;  // the domain may have no end along y
   BoxShape common;
@@ -230,13 +268,9 @@ bool overlap(const Shape& one, const Shape& other, const BoxShape& domain) {
       return false;
   }
   constexpr int samples = 16384;
-  constexpr std::array<int, 3> bases{2, 3, 5};
   for (int i = 1; i <= samples; ++i) {
-    Point3 point;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      point[axis] = common.lower[axis] +
-                    (common.upper[axis] - common.lower[axis]) * radical_inverse(i, bases[axis]);
-    if (one.contains(point) && other.contains(point)) return true;
+    const Point3 place = place_in(common, i);
+    if (one.contains(place) && other.contains(place)) return true;
   }
   return false;
 }
@@ -264,7 +298,8 @@ void check_overlaps(Reading& reading, const std::vector<NamedShape>& grounds) {
   if (!reading.domain) return;
   for (std::size_t i = 0; i < grounds.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
-      if (overlap(grounds[i].shape, grounds[j].shape, *reading.domain))
+      if (grounds[i].stage == grounds[j].stage &&
+          overlap(grounds[i].shape, grounds[j].shape, *reading.domain))
         reading.report.add(grounds[i].place,
                            fmt::format("{} overlaps {}\n  (no two bodies can fill the same space).",
                                        grounds[i].what, grounds[j].what));

@@ -10,12 +10,37 @@
 namespace mudlark {
 namespace {
 
+/// Points per cell and axis.
+constexpr int most_per_axis = 6;
+
+/// As many points per cell and axis as keep them at most `point_spacing` apart.
+int read_point_spacing(Section& section, int fallback) {
+  section.forbid("points_per_cell", "point_spacing says how many points there are");
+  const double spacing = section.number_unrecorded("point_spacing", quantity::length,
+                                                   positive("points stand some distance apart"));
+  const auto& cell = section.reading().spacing;
+  const double widest = *std::max_element(cell.begin(), cell.end());
+  if (!(spacing > 0.0) || !(widest > 0.0)) return fallback;
+  const auto per_axis = static_cast<int>(std::ceil(widest / spacing * (1.0 - 1e-9)));
+  if (per_axis < 2 || per_axis > most_per_axis)
+    section.fail("point_spacing",
+                 fmt::format("cells are {:g} m wide and take 2 to {} points along each axis",
+                             widest, most_per_axis),
+                 fmt::format("Write a spacing from {:.3g} to {:.3g} m, or change the cells.",
+                             widest / most_per_axis, widest / 2));
+  const int dimension = section.reading().dimension;
+  const auto points = static_cast<int>(std::lround(std::pow(per_axis, dimension)));
+  section.record().value("points_per_cell", fmt::format("{}", points));
+  return points;
+}
+
 int read_points_per_cell(Section& section) {
   const int dimension = section.reading().dimension;
   const int fallback = dimension == 2 ? 4 : 8;
+  if (section.has("point_spacing")) return read_point_spacing(section, fallback);
   const std::string possible = dimension == 2 ? "4, 9, 16, 25 or 36" : "8, 27, 64, 125 or 216";
   const Bounds bounds{.lower = static_cast<double>(fallback),
-                      .upper = std::pow(6, dimension),
+                      .upper = std::pow(most_per_axis, dimension),
                       .reason = "points stand in rows: " + possible};
   const int points = section.integer("points_per_cell", bounds, fallback);
   const auto per_axis = static_cast<int>(std::lround(std::pow(points, 1.0 / dimension)));
@@ -129,7 +154,7 @@ void read_pore_water(Section& section, SoilBody& body, const WaterProperties& wa
 }  // namespace
 
 void read_soil(Section& root, CaseOptions& options, const WaterProperties& water,
-               std::vector<NamedShape>& grounds) {
+               const std::vector<Stage>& stages, std::vector<NamedShape>& grounds) {
   std::vector<Section> sections = root.tables("soil");
   if (sections.empty()) return;
   SoilOptions soil;
@@ -141,6 +166,11 @@ void read_soil(Section& root, CaseOptions& options, const WaterProperties& water
     SoilBody body;
     body.name = read_name(section, names);
     const auto shape = read_shape(section, "shape");
+    body.stage = read_stage_of_soil(section, stages);
+    if (body.stage > 0 && options.flow)
+      section.fail("stage",
+                   "flowing water would be where the soil is placed: [[water.body]] "
+                   "excludes it");
     body.grain_density = section.number(
         "grain_density", quantity::density,
         positive("a density lies above 0", "Quartz has 2650 kg/m3."), body.grain_density);
@@ -162,10 +192,15 @@ void read_soil(Section& root, CaseOptions& options, const WaterProperties& water
     section.finish();
     if (shape) {
       body.shape = *shape;
-      grounds.push_back({fmt::format("soil \"{}\"", body.name), *shape, section.place("shape")});
+      grounds.push_back(
+          {fmt::format("soil \"{}\"", body.name), *shape, section.place("shape"), body.stage});
     }
     soil.bodies.push_back(std::move(body));
   }
+  if (std::all_of(soil.bodies.begin(), soil.bodies.end(),
+                  [](const SoilBody& body) { return body.stage > 0; }))
+    sections.front().fail("stage", "no soil is there at the start",
+                          "Give at least one [[soil]] no stage, or the first one.");
   options.soil = std::move(soil);
 }
 

@@ -30,20 +30,6 @@ void read_tolerances(Section& section, RestCriterion& rest) {
       rest.kinetic_energy);
 }
 
-/// stop_when_static = { ... }, every key with a default.
-RestCriterion read_rest(Section& solver) {
-  Section section = solver.table("stop_when_static", Record::Form::inline_table);
-  RestCriterion rest;
-  read_tolerances(section, rest);
-  rest.after = section.number("after", quantity::time,
-                              {.lower = 0.0,
-                               .upper = solver.reading().end,
-                               .reason = "a time within the run, when all loads are on"},
-                              rest.after);
-  section.finish();
-  return rest;
-}
-
 /// start_in_equilibrium = { longest = ..., ... }
 EquilibriumStart read_equilibrium(Section& solver, const Bounds& coefficient) {
   Section section = solver.table("start_in_equilibrium", Record::Form::inline_table);
@@ -67,17 +53,12 @@ void read_statics(Section& section, SoilOptions& soil, bool water_flows) {
       section.forbid(key, "implicit steps have no inertia: they are at rest after each step");
     return;
   }
-  const Bounds coefficient{.lower = 0.0,
-                           .upper = 1.0,
-                           .upper_included = false,
-                           .reason = "a coefficient from 0 to below 1"};
+  const Bounds coefficient = damping_bounds();
   soil.damping = section.number("damping", quantity::number, coefficient, soil.damping);
   soil.water_damping = section.number("water_damping", quantity::number, coefficient,
                                       std::isnan(soil.damping) ? 0.0 : soil.damping);
   soil.mass_scaling =
-      section.number("mass_scaling", quantity::number,
-                     {.lower = 1.0, .reason = "a factor of at least 1 on the inertia of the soil"},
-                     soil.mass_scaling);
+      section.number("mass_scaling", quantity::number, mass_scaling_bounds(), soil.mass_scaling);
   if (soil.mass_scaling > 1.0 && water_flows)
     section.fail("mass_scaling",
                  "water that flows would meet a soil of false inertia: [[water.body]] excludes it");
@@ -91,7 +72,7 @@ void read_statics(Section& section, SoilOptions& soil, bool water_flows) {
   if (water_flows)
     section.fail("stop_when_static",
                  "it watches the soil only, and the case has flowing water ([[water.body]])");
-  soil.stop_when_static = read_rest(section);
+  soil.stop_when_static = read_rest(section, section.reading().end);
 }
 
 /// What belongs to the formulations of pore water that are not u-w.
@@ -121,10 +102,7 @@ void read_soil_solver(Section& root, SoilOptions& soil, bool water_flows,
       section.number("flip_fraction", quantity::number,
                      {.lower = 0.0, .upper = 1.0, .reason = "a share between 0 (PIC) and 1 (FLIP)"},
                      soil.flip_fraction);
-  soil.method = section.choice<TimeMethod>(
-      "method",
-      {{"explicit", TimeMethod::explicit_steps}, {"implicit", TimeMethod::implicit_steps}},
-      soil.method);
+  soil.method = read_time_method(section, soil.method);
   read_statics(section, soil, water_flows);
   soil.courant = section.number("courant", quantity::number,
                                 share(1.0, "a share of the stable step, above 0 and at most 1"),
@@ -209,6 +187,35 @@ void check_method(Section& root, const SoilOptions& soil, bool water_flows) {
 }
 
 }  // namespace
+
+Bounds damping_bounds() {
+  return {.lower = 0.0,
+          .upper = 1.0,
+          .upper_included = false,
+          .reason = "a coefficient from 0 to below 1"};
+}
+Bounds mass_scaling_bounds() {
+  return {.lower = 1.0, .reason = "a factor of at least 1 on the inertia of the soil"};
+}
+
+TimeMethod read_time_method(Section& section, std::optional<TimeMethod> fallback) {
+  return section.choice<TimeMethod>(
+      "method",
+      {{"explicit", TimeMethod::explicit_steps}, {"implicit", TimeMethod::implicit_steps}},
+      fallback);
+}
+
+RestCriterion read_rest(Section& parent, double longest) {
+  Section section = parent.table("stop_when_static", Record::Form::inline_table);
+  RestCriterion rest;
+  read_tolerances(section, rest);
+  rest.after = section.number(
+      "after", quantity::time,
+      {.lower = 0.0, .upper = longest, .reason = "a time within the run, when all loads are on"},
+      rest.after);
+  section.finish();
+  return rest;
+}
 
 void read_solvers(Section& root, CaseOptions& options, std::optional<double> courant) {
   Report& report = root.reading().report;

@@ -6,11 +6,17 @@
 namespace mudlark {
 
 std::optional<double> read_time(Section& root, CaseOptions& options) {
-  Section section = root.table("time", Record::Form::block, true);
-  if (!root.has("time")) return {};
   TimeOptions& time = options.time;
-  time.end = section.number("end", quantity::time,
-                            positive("the end of the run lies after its start at 0"));
+  const bool staged = !time.stage_ends.empty();
+  Section section = root.table("time", Record::Form::block, !staged);
+  if (!root.has("time") && !staged) return {};
+  if (staged) {
+    section.forbid("end", "the run ends with its last [[stage]]");
+    time.end = time.stage_ends.back();
+  } else {
+    time.end = section.number("end", quantity::time,
+                              positive("the end of the run lies after its start at 0"));
+  }
   root.reading().end = time.end;
   const auto courant =
       section.number_if_set("courant", quantity::number,

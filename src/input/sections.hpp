@@ -20,15 +20,29 @@ struct NamedShape {
   std::string what;  ///< "soil \"column\""
   Shape shape;
   Place place;
+  std::size_t stage = 0;  ///< at which it is placed
+};
+
+/// A [[stage]] that is not checked against the rest of the case yet.
+struct Stage {
+  Section section;
+  SoilStage soil;
+  std::optional<std::vector<std::string>> load_names;
 };
 
 void read_domain(Section& root, CaseOptions& options);
+/// [[stage]]: after [domain] and before [time].
+std::vector<Stage> read_stages(Section& root, CaseOptions& options);
+/// Checks the stages against soil, loads and solvers, and puts them into the options.
+void finish_stages(std::vector<Stage>& stages, CaseOptions& options);
+/// The stage at whose start a [[soil]] is placed.
+std::size_t read_stage_of_soil(Section& soil, const std::vector<Stage>& stages);
 /// Returns [time] courant, which holds for both solvers.
 std::optional<double> read_time(Section& root, CaseOptions& options);
 WaterProperties read_water(Section& root, CaseOptions& options);
 void read_porous(Section& root, CaseOptions& options, std::vector<NamedShape>& grounds);
 void read_soil(Section& root, CaseOptions& options, const WaterProperties& water,
-               std::vector<NamedShape>& grounds);
+               const std::vector<Stage>& stages, std::vector<NamedShape>& grounds);
 /// law = { ... } and the strain measure that goes with it.
 void read_law(Section& soil, SoilBody& body);
 /// Keys that several laws share.
@@ -60,12 +74,19 @@ void read_loads(Section& root, CaseOptions& options);
 /// [[boundary]]: after [domain] and [[soil]].
 void read_boundaries(Section& root, CaseOptions& options);
 void read_solvers(Section& root, CaseOptions& options, std::optional<double> courant);
+/// Settings of the soil that solver and stages share. `longest` [s]: upper bound of `after`.
+Bounds damping_bounds();
+Bounds mass_scaling_bounds();
+TimeMethod read_time_method(Section& section, std::optional<TimeMethod> fallback);
+RestCriterion read_rest(Section& parent, double longest);
 void read_coupling(Section& root, CaseOptions& options);
 void read_gauges(Section& root, CaseOptions& options);
 
 /// The shape below `key`, inside the domain, unless it may reach over its edge; nothing after a
 /// mistake.
 std::optional<Shape> read_shape(Section& section, std::string_view key, bool may_leave = false);
+/// { line = ... } or { file = ... }: everything below that ground; nothing after a mistake.
+std::optional<Shape> read_ground(Section& section);
 /// { stl = "file.stl", scale = , offset = } of a shape; nothing after a mistake.
 std::optional<Shape> read_stl(Section& shape);
 /// kappa [m2] from intrinsic_permeability or, with the water's density [kg/m3] and viscosity [Pa

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -111,8 +112,9 @@ void GaugeWriter::note(double time, std::span<const double> values) {
   extremes_->time = time;
   for (std::size_t i = 0; i < values.size(); ++i) {
     extremes_->last[i] = values[i];
-    extremes_->smallest[i] = std::min(extremes_->smallest[i], values[i]);
-    extremes_->largest[i] = std::max(extremes_->largest[i], values[i]);
+    // Numbers win against those that are not known.
+    extremes_->smallest[i] = std::fmin(extremes_->smallest[i], values[i]);
+    extremes_->largest[i] = std::fmax(extremes_->largest[i], values[i]);
   }
 }
 

@@ -33,6 +33,18 @@ Json gauges_of(const std::vector<GaugeSummary>& gauges) {
   return object;
 }
 
+Json stages_of(const std::vector<StageSummary>& stages) {
+  Json list = Json::array();
+  for (const StageSummary& stage : stages)
+    list.push_back({{"name", stage.name},
+                    {"began [s]", stage.began},
+                    {"ended [s]", stage.ended},
+                    {"at rest [s]", stage.rested ? Json(*stage.rested) : Json(nullptr)},
+                    {"grains taken out [kg]", stage.excavated},
+                    {"grains placed [kg]", stage.placed}});
+  return list;
+}
+
 double sum_over(MPI_Comm comm, double value) {
   double sum = 0.0;
   MPI_Allreduce(&value, &sum, 1, MPI_DOUBLE, MPI_SUM, comm);
@@ -73,6 +85,7 @@ std::string to_json(const Summary& summary) {
   if (!summary.soil_statics.empty()) json["rest of the soil"] = object_of(summary.soil_statics);
   for (const SolidSummary& solid : summary.solids)
     for (const auto& [title, values] : solid.values) json["solids"][solid.name][title] = values;
+  if (!summary.stages.empty()) json["stages"] = stages_of(summary.stages);
   json["gauges"] = gauges_of(summary.gauges);
   json["peak memory [bytes]"] = summary.peak_memory_bytes;
   // A title may hold bytes that are no UTF-8; they are replaced, not refused.

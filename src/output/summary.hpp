@@ -25,6 +25,14 @@ struct SolidSummary {
   std::vector<std::pair<std::string, std::vector<double>>> values;
 };
 
+/// A stage of the run that has begun.
+struct StageSummary {
+  std::string name;
+  double began, ended;           ///< [s]; `ended`: so far
+  std::optional<double> rested;  ///< when the soil came to rest [s]
+  double excavated, placed;      ///< grains at its start [kg]
+};
+
 /// A number that is not known (NaN) is written as null.
 struct Summary {
   std::string status = "running";  ///< running | done | diverged | interrupted | failed
@@ -42,6 +50,7 @@ struct Summary {
   std::vector<std::pair<std::string, double>> soil_energy;          ///< work of the soil [J]
   std::vector<std::pair<std::string, double>> soil_statics;         ///< how far from rest, shares
   std::vector<SolidSummary> solids;
+  std::vector<StageSummary> stages;
   std::vector<GaugeSummary> gauges;
   double peak_memory_bytes = 0.0;  ///< all ranks together
 };

@@ -21,6 +21,16 @@ class Clock {
   double time() const { return time_; }
   std::int64_t step() const { return step_; }
   bool finished() const { return stopped_ || time_ >= options_.end; }
+  /// Where the run is in its stages.
+  std::size_t stage() const { return static_cast<std::size_t>(stage_); }
+  bool in_last_stage() const { return stage() + 1 >= options_.stage_ends.size(); }
+  /// Is the next stage to begin before the next step?
+  bool stage_over() const { return !in_last_stage() && time_ >= options_.stage_ends[stage()]; }
+  void begin_next_stage() { ++stage_; }
+  /// Goes to the end of the stage at once: nothing happens until then.
+  void pass_to_stage_end() { time_ = std::min(options_.stage_ends[stage()], options_.end); }
+  bool at_stage_end() const { return is_one_of(options_.stage_ends); }
+
   /// Closes the run now, before its end. Not part of the state: a continued run goes on.
   void stop() { stopped_ = true; }
   bool stopped() const { return stopped_; }
@@ -34,8 +44,7 @@ class Clock {
   bool output_due() const {
     if (finished() || time_ == 0.0) return true;
     if (options_.output_every > 0.0 && due(time_, options_.output_every)) return true;
-    return std::any_of(options_.output_at.begin(), options_.output_at.end(),
-                       [&](double t) { return t == time_; });
+    return at_stage_end() || is_one_of(options_.output_at);
   }
 
   /// Next time at which something is due [s]. Times as the user wrote them are met exactly;
@@ -44,6 +53,8 @@ class Clock {
   double next_event() const {
     double next = options_.end;
     for (const double t : options_.output_at)
+      if (t > time_) next = std::min(next, t);
+    for (const double t : options_.stage_ends)
       if (t > time_) next = std::min(next, t);
     const double written = next;
     for (const double period : periods_) {
@@ -72,13 +83,18 @@ class Clock {
   void archive(Archive& a) {
     a.number("clock/time", time_);
     a.integer("clock/step", step_);
+    a.integer("clock/stage", stage_);
   }
 
  private:
+  bool is_one_of(const std::vector<double>& times) const {
+    return std::find(times.begin(), times.end(), time_) != times.end();
+  }
+
   TimeOptions options_;
   std::vector<double> periods_;
   double time_ = 0.0;
-  std::int64_t step_ = 0;
+  std::int64_t step_ = 0, stage_ = 0;
   bool stopped_ = false;
 };
 

@@ -9,7 +9,8 @@ namespace mudlark {
 namespace {
 
 constexpr std::array<std::string_view, 2> free_tables{"[time]", "[[gauge]]"};
-constexpr std::array<std::string_view, 2> solver_tables{"[soil_solver]", "[flow_solver]"};
+constexpr std::array<std::string_view, 3> solver_tables{"[soil_solver]", "[flow_solver]",
+                                                        "[[stage]]"};
 constexpr std::array<std::string_view, 6> free_solver_keys{
     "courant", "max_step", "damping", "water_damping", "stop_when_static", "pressure_tolerance"};
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "base/errors.hpp"
 #include "run/material_gauge.hpp"
@@ -49,6 +50,9 @@ template <int D>
 std::vector<double> read_soil(World<D>& world, const GaugeOptions& gauge) {
   std::vector<double> values = read_material(world.grid(), *world.soil(),
                                              material_quantity(gauge.quantity), place_of<D>(gauge));
+  if (values.empty() && !world.stages().empty())  // not yet placed, or taken out
+    return std::vector<double>(gauge_columns(gauge, D).size(),
+                               std::numeric_limits<double>::quiet_NaN());
   if (values.empty())
     throw InputError(fmt::format(
         "gauge {}: no soil at ({:g}, {:g}, {:g}) m at the start. Put `at` inside a soil body "

@@ -95,9 +95,10 @@ std::vector<std::pair<std::string, double>> conservation_errors(World<D>& world)
   const Ledger<D>& start = world.ledger();
   if (world.soil()) {
     const auto totals = world.soil()->totals();
-    errors.emplace_back("grains",
-                        std::abs(start.grain_mass - totals.removed_grain_mass - totals.grain_mass) /
-                            start.grain_mass);
+    errors.emplace_back("grains", std::abs(start.grain_mass + totals.placed_grain_mass -
+                                           totals.excavated_grain_mass - totals.removed_grain_mass -
+                                           totals.grain_mass) /
+                                      start.grain_mass);
   }
   double worst = std::numeric_limits<double>::quiet_NaN();
   const Motion<D> motion = motion_of(world);

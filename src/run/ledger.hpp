@@ -32,9 +32,9 @@ template <int D>
 Ledger<D> open_ledger(World<D>& world);
 
 /// Relative errors by name: "water" (initial - outflow - present, over initial), "grains" (the same
-/// for the mass of the grains), "momentum" (change over mass times speed at the start; only where
-/// nothing acts from outside: axes that are periodic and without gravity; otherwise NaN, written as
-/// null). Collective.
+/// for the mass of the grains, with what stages placed and took out), "momentum" (change over mass
+/// times speed at the start; only where nothing acts from outside: axes that are periodic and
+/// without gravity; otherwise NaN, written as null). Collective.
 template <int D>
 std::vector<std::pair<std::string, double>> conservation_errors(World<D>& world);
 

@@ -1,7 +1,9 @@
 #include "run/material_gauge.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace mudlark {
 namespace {
@@ -41,6 +43,42 @@ void read_point(const SoilParticles<D>& points, const BodyConstants& body, std::
   }
 }
 
+/// Where a point started, seen from a place, in cells.
+template <int D>
+Vec<D> cells_away(const Grid<D>& grid, const SoilParticles<D>& points, std::size_t p,
+                  const Vec<D>& at) {
+  Vec<D> away;
+  for (int a = 0; a < D; ++a) {
+    away[a] = (points.start[a][p] - at[a]) / grid.spacing()[a];
+    if (grid.periodic(a))  // the start of a point that crossed the seam lies one length away
+      away[a] -= grid.cells()[a] * std::round(away[a] / grid.cells()[a]);
+  }
+  return away;
+}
+
+/// The stage whose soil started nearest to a place: ground and fill beside each other have not
+/// moved together. Collective.
+template <int D>
+std::size_t nearest_stage(const Grid<D>& grid, const SoilSolver<D>& soil, const Vec<D>& at) {
+  const std::size_t stages = soil.options().stages.size();
+  if (stages < 2) return 0;
+  std::vector<double> mine(stages, std::numeric_limits<double>::infinity()), all = mine;
+  for (std::size_t b = 0; b < soil.bodies(); ++b) {
+    double& nearest = mine[soil.options().bodies[b].stage];
+    for (std::size_t p = 0; p < soil.points(b).size(); ++p) {
+      const Vec<D> away = cells_away(grid, soil.points(b), p, at);
+      nearest = std::min(nearest, dot(away, away));
+    }
+  }
+  MPI_Allreduce(mine.data(), all.data(), static_cast<int>(stages), MPI_DOUBLE, MPI_MIN,
+                grid.comm());
+  constexpr double hair = 1e-9;  // of two that are as near, the older one
+  std::size_t nearest = 0;
+  for (std::size_t s = 1; s < stages; ++s)
+    if (all[s] < all[nearest] * (1.0 - hair)) nearest = s;
+  return nearest;
+}
+
 }  // namespace
 
 template <int D>
@@ -52,17 +90,17 @@ std::vector<double> read_material(const Grid<D>& grid, const SoilSolver<D>& soil
   std::vector<double> mine(static_cast<std::size_t>(basis * basis + basis * width + 1), 0.0),
       all = mine;
   std::array<double, 4> values{};
+  const std::size_t stage = nearest_stage(grid, soil, at);
   for (std::size_t b = 0; b < soil.bodies(); ++b) {
+    if (soil.options().bodies[b].stage != stage) continue;
     const auto& points = soil.points(b);
     for (std::size_t p = 0; p < points.size(); ++p) {
       std::array<double, basis> term{1.0};
       double weight = 1.0;
-      for (int a = 0; a < D && weight > 0.0; ++a) {
-        double distance = (points.start[a][p] - at[a]) / grid.spacing()[a];
-        if (grid.periodic(a))  // the start of a point that crossed the seam lies one length away
-          distance -= grid.cells()[a] * std::round(distance / grid.cells()[a]);
-        term[static_cast<std::size_t>(a + 1)] = distance;
-        weight *= std::max(0.0, 1.0 - std::abs(distance) / 1.5);
+      const Vec<D> away = cells_away(grid, points, p, at);
+      for (int a = 0; a < D; ++a) {
+        term[static_cast<std::size_t>(a + 1)] = away[a];
+        weight *= std::max(0.0, 1.0 - std::abs(away[a]) / 1.5);
       }
       if (weight <= 0.0) continue;
       read_point(points, soil.constants(b), p, quantity, values.data());

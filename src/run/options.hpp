@@ -18,6 +18,7 @@ struct TimeOptions {
   double output_every =
       0.0;  ///< [s] of simulated time between field outputs; 0: start and end only
   std::vector<double> output_at;    ///< [s], further times of field output
+  std::vector<double> stage_ends;   ///< [s], ascending, the last one is `end`; none: one stage
   double checkpoint_every = 600.0;  ///< [s] of wall-clock time
 };
 

@@ -192,7 +192,7 @@ void Results<D>::write_gauges(World<D>& world) {
   const double time = world.clock().time();
   for (std::size_t g = 0; g < gauges_.size(); ++g) {
     const GaugeOptions& gauge = world.options().gauges[g];
-    if (Clock::due(time, gauge.every) || world.clock().finished())
+    if (Clock::due(time, gauge.every) || world.clock().at_stage_end() || world.clock().finished())
       gauges_[g].sample(time, read_gauge(world, gauge));
   }
 }
@@ -235,7 +235,13 @@ Summary Results<D>::describe(World<D>& world) const {
                            {"mapping", effort.mapping},
                            {"output", effort.output}};
   summary.conservation_errors = conservation_errors(world);
-  if (world.soil() && !world.soil()->is_implicit())
+  for (const StageRecord& stage : world.stages())
+    if (stage.began >= 0.0)
+      summary.stages.push_back({stage.name, stage.began,
+                                stage.ended >= 0.0 ? stage.ended : world.clock().time(),
+                                stage.rested >= 0.0 ? std::optional(stage.rested) : std::nullopt,
+                                stage.excavated, stage.placed});
+  if (world.soil() && world.soil()->keeps_energy())
     summary.soil_energy = soil_energy(*world.soil());
   summary.solids = describe_solids(world);
   for (const GaugeWriter& gauge : gauges_)

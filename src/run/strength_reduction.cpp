@@ -15,9 +15,11 @@ void check(const CaseOptions& options, const StrengthReductionSettings& settings
   if (!options.soil) throw InputError("strength reduction: the case has no [[soil]]");
   if (options.flow)
     throw InputError("strength reduction: cases with free water are not possible yet");
-  if (!options.soil->stop_when_static)
+  const auto& stages = options.soil->stages;
+  if (!options.soil->stop_when_static && (stages.empty() || !stages.back().stop_when_static))
     throw InputError(
-        "strength reduction needs soil_solver.stop_when_static: the soil stands when it comes to "
+        "strength reduction needs soil_solver.stop_when_static, or that of the last stage: the "
+        "soil stands when it comes to "
         "rest before time.end. Add stop_when_static = {} and, to get there, damping = 0.7.");
   if (options.soil->start_in_equilibrium)
     throw InputError(
@@ -66,7 +68,9 @@ std::optional<StrengthTrial> run_trial(const CaseOptions& options, double factor
   try {
     if (run_to_end(world, results, run) == ExitCode::interrupted) return std::nullopt;
     const auto statics = world.soil()->statics();
-    const bool rests = statics && statics->at_rest(*options.soil->stop_when_static);
+    const bool rests = statics && world.clock().in_last_stage() &&
+                       world.soil()->options().stop_when_static &&
+                       statics->at_rest(*world.soil()->options().stop_when_static);
     trial.displacement = world.soil()->largest_displacement();
     trial.stands = rests && trial.displacement <= limit;
     trial.verdict = trial.stands                 ? "stands"

@@ -57,6 +57,17 @@ class RunLog {
       for (const std::string& warning : world.soil()->warnings())
         results.log("warning: " + warning);
   }
+  void stage() {
+    const std::size_t number = world_->clock().stage();
+    const StageRecord& stage = world_->stages().at(number);
+    if (const StageRecord* last = number > 0 ? &stage - 1 : nullptr; last && last->rested >= 0.0)
+      results_->log(fmt::format("t = {:.9g} s: at rest", last->rested));
+    std::string line = fmt::format("t = {:.9g} s: stage {}", world_->clock().time(), stage.name);
+    if (stage.excavated > 0.0)
+      line += fmt::format(", {:.6g} kg of grains taken out", stage.excavated);
+    if (stage.placed > 0.0) line += fmt::format(", {:.6g} kg of grains placed", stage.placed);
+    results_->log(line);
+  }
   void step(double dt) {
     if (MPI_Wtime() - written_ < seconds_between_lines) return;
     written_ = MPI_Wtime();
@@ -91,7 +102,12 @@ ExitCode run_to_end(World<D>& world, Results<D>& results, const RunSettings& set
     results.write_summary(world, "running", "");
     if (!settings.resume)
       results.write_checkpoint(world);  // so that every failure leaves a good state
+    if (!world.stages().empty()) log.stage();
     while (!clock.finished()) {
+      if (clock.stage_over()) {
+        world.begin_next_stage();
+        log.stage();
+      }
       const double dt = clock.choose_step(world.stable_step());
       world.advance(dt);
       if (moved_too_far(world, settings)) clock.stop();

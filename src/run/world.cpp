@@ -42,7 +42,11 @@ World<D>::World(const CaseOptions& options, MPI_Comm comm)
     fill_fixed_ground(grid_, *options.flow, fixed_);
     fill_fixed_ground(grid_, *options.flow, medium_);
   }
-  if (options.soil) soil_.emplace(grid_, *options.soil);
+  if (options.soil) {
+    soil_.emplace(grid_, *options.soil);
+    for (const SoilStage& stage : options.soil->stages) stages_.push_back({stage.name});
+    if (!stages_.empty()) stages_.front().began = 0.0;
+  }
   if (flow_ && soil_ && options.coupling.mode == CouplingMode::surface) {
     coupling_.emplace(grid_, options.coupling, *options.flow, *soil_);
     load_.emplace(grid_);
@@ -60,7 +64,10 @@ void World<D>::initialise() {
 
 template <int D>
 void World<D>::restore() {
-  if (soil_) soil_->redistribute();
+  if (soil_) {
+    soil_->apply_stage(clock_.stage());
+    soil_->redistribute();
+  }
   if (!coupling_) return;
   coupling_->restore();
   coupling_->map_soil_to_grid(*soil_, fixed_, medium_);
@@ -79,15 +86,36 @@ void World<D>::advance(double dt) {
   clock_.advance(dt);
   effort_.largest_step = std::max(effort_.largest_step, dt);
   effort_.smallest_step = effort_.smallest_step > 0.0 ? std::min(effort_.smallest_step, dt) : dt;
-  if (at_rest()) clock_.stop();
+  StageRecord* stage = stages_.empty() ? nullptr : &stages_[clock_.stage()];
+  if (at_rest()) {
+    if (stage) stage->rested = clock_.time();
+    if (clock_.in_last_stage())
+      clock_.stop();
+    else
+      clock_.pass_to_stage_end();
+  }
+  if (stage && (clock_.stage_over() || clock_.finished())) stage->ended = clock_.time();
 }
 
 /// Has the soil come to rest, where the case asks for it?
 template <int D>
 bool World<D>::at_rest() {
-  if (!soil_ || !options_.soil->stop_when_static) return false;
-  const RestCriterion& criterion = *options_.soil->stop_when_static;
-  return clock_.time() >= criterion.after && soil_->statics()->at_rest(criterion);
+  if (!soil_ || !soil_->options().stop_when_static) return false;
+  const RestCriterion& criterion = *soil_->options().stop_when_static;
+  const double began = stages_.empty() ? 0.0 : stages_[clock_.stage()].began;
+  return clock_.time() >= began + criterion.after && soil_->statics()->at_rest(criterion);
+}
+
+template <int D>
+void World<D>::begin_next_stage() {
+  clock_.begin_next_stage();
+  const auto before = soil_->totals();
+  soil_->begin_stage(clock_.stage());
+  const auto after = soil_->totals();
+  StageRecord& stage = stages_[clock_.stage()];
+  stage.began = clock_.time();
+  stage.excavated = after.excavated_grain_mass - before.excavated_grain_mass;
+  stage.placed = after.placed_grain_mass - before.placed_grain_mass;
 }
 
 template <int D>

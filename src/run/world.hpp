@@ -8,6 +8,7 @@
 #include "run/clock.hpp"
 #include "run/ledger.hpp"
 #include "run/options.hpp"
+#include "run/stage_record.hpp"
 #include "soil/soil_solver.hpp"
 
 namespace mudlark {
@@ -25,6 +26,8 @@ class World {
   /// One outer step of the paper's flow chart: soil to grid, water, water to soil, soil in small
   /// steps. Collective.
   void advance(double dt);
+  /// Enters the stage that follows the one that is over. Collective.
+  void begin_next_stage();
   /// Brings derived values up to date after a state was loaded. Collective.
   void restore();
 
@@ -48,11 +51,14 @@ class World {
   Effort& effort() { return effort_; }
 
   const Ledger<D>& ledger() const { return ledger_; }
+  /// One per stage of the case; those that did not end yet have not `ended`.
+  const std::vector<StageRecord>& stages() const { return stages_; }
 
   template <class Archive>
   void archive(Archive& a) {
     clock_.archive(a);
     ledger_.archive(a);
+    for (StageRecord& stage : stages_) stage.archive(a);
     if (flow_) flow_->archive(a);
     if (soil_) soil_->archive(a);
     if (coupling_) coupling_->archive(a);
@@ -72,6 +78,7 @@ class World {
   std::optional<SurfaceCoupling<D>> coupling_;
   std::optional<FluidLoad<D>> load_;
   Ledger<D> ledger_;
+  std::vector<StageRecord> stages_;
   Effort effort_;
 };
 

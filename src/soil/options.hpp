@@ -43,6 +43,7 @@ struct SoilBody {
   std::optional<Varying>
       initial_pore_pressure;  ///< [Pa], added to the hydrostatic one of GeostaticStress
   std::array<Varying, 3> initial_velocity{};  ///< [m/s] per axis, grains and pore water alike
+  std::size_t stage = 0;                      ///< at whose start the body is placed
 };
 
 /// What a load presses on. skeleton: the pore water drains at the surface at zero pressure; water:
@@ -67,6 +68,18 @@ struct RestCriterion {
 
 /// explicit: small steps with inertia. implicit: quasi-static steps of any length.
 enum class TimeMethod { explicit_steps, implicit_steps };
+
+/// A part of the run with settings of its own; nothing: those of the solver.
+struct SoilStage {
+  std::string name;
+  std::optional<double> damping, water_damping;  ///< [-]
+  std::optional<double> mass_scaling;            ///< [-]
+  std::optional<TimeMethod> method{};
+  std::optional<RestCriterion> stop_when_static{};  ///< `after` counts from the stage's start
+  std::optional<std::vector<bool>> loads{};         ///< which act, of all in order; nothing: all
+  std::optional<Shape> remove{};                    ///< whose soil is taken out at the start
+  bool reset_displacements = false;                 ///< at the start
+};
 
 /// Search for the state of rest from which a case starts.
 struct EquilibriumStart {
@@ -114,6 +127,7 @@ struct SoilOptions {
   /// Error of an implicit step as a share of the largest displacement so far [-].
   double step_tolerance = 3e-4;
   LoadForm load_form = LoadForm::virtual_stress;
+  std::vector<SoilStage> stages{};        ///< in order; none: the whole run has one
   std::optional<double> split_stretched;  ///< extent at which a point is split [cells]
   /// Acceleration beside gravity, x y z [m/s2], of grains and pore water.
   std::optional<std::array<Varying, 3>> body_acceleration;

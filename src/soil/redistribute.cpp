@@ -10,11 +10,9 @@
 #include "parallel/collective_error.hpp"
 
 namespace mudlark {
-namespace {
 
-/// Removes the points whose flag is set, keeping the order of the others.
 template <int D>
-void remove_flagged(SoilParticles<D>& points, const std::vector<char>& flagged) {
+void remove_points(SoilParticles<D>& points, const std::vector<char>& flagged) {
   const auto compact = [&](auto& array) {
     std::size_t kept = 0;
     for (std::size_t p = 0; p < flagged.size(); ++p)
@@ -24,6 +22,8 @@ void remove_flagged(SoilParticles<D>& points, const std::vector<char>& flagged) 
   compact(points.id);
   points.for_each_array(compact);
 }
+
+namespace {
 
 /// All values of the flagged points, point after point.
 template <int D>
@@ -122,7 +122,7 @@ double treat_walls(const SoilSides<D>& sides, SoilParticles<D>& points) {
     }
   }
   throw_divergence_if_any(grid.comm(), problem);
-  if (removed > 0.0) remove_flagged(points, gone);
+  if (removed > 0.0) remove_points(points, gone);
   return removed;
 }
 
@@ -138,7 +138,7 @@ void send_to_side(const Grid<D>& grid, SoilParticles<D>& points, int axis, int s
       leaving[p] = side == 0 ? cell < grid.owned().lower[axis] : cell >= grid.owned().upper[axis];
     }
   const std::vector<double> received = exchange(grid.comm(), pack(points, leaving), to, from);
-  remove_flagged(points, leaving);
+  remove_points(points, leaving);
   unpack(points, received);
 }
 
@@ -199,6 +199,8 @@ void sort_by_cell(const Grid<D>& grid, SoilParticles<D>& points) {
   note_runs(grid, cell, points);
 }
 
+template void remove_points(SoilParticles<2>&, const std::vector<char>&);
+template void remove_points(SoilParticles<3>&, const std::vector<char>&);
 template double migrate(const SoilSides<2>&, SoilParticles<2>&);
 template double migrate(const SoilSides<3>&, SoilParticles<3>&);
 template void sort_by_cell(const Grid<2>&, SoilParticles<2>&);

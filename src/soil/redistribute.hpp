@@ -18,6 +18,10 @@ double migrate(const Grid<D>& grid, SoilParticles<D>& points) {
   return migrate(SoilSides<D>(grid), points);
 }
 
+/// Removes the points whose flag is set, keeping the order of the others.
+template <int D>
+void remove_points(SoilParticles<D>& points, const std::vector<char>& flagged);
+
 /// Sorts points by cell (stable counting sort), first axis fastest.
 template <int D>
 void sort_by_cell(const Grid<D>& grid, SoilParticles<D>& points);

@@ -39,10 +39,11 @@ Index<D> cube(int m) {
   return corner;
 }
 
-/// The body whose shape holds a place, or -1.
-int body_at(const SoilOptions& options, const Point3& place) {
+/// The body of a stage whose shape holds a place, or -1.
+int body_at(const SoilOptions& options, std::size_t stage, const Point3& place) {
   for (std::size_t b = 0; b < options.bodies.size(); ++b)
-    if (options.bodies[b].shape.contains(place)) return static_cast<int>(b);
+    if (options.bodies[b].stage == stage && options.bodies[b].shape.contains(place))
+      return static_cast<int>(b);
   return -1;
 }
 
@@ -59,13 +60,13 @@ struct Overburden {
 
 /// Sums the column of soil above a place in steps of the lattice, half a step of its own included.
 template <int D>
-Overburden overburden(const Grid<D>& grid, const SoilOptions& options, const Vec<D>& place,
-                      double step) {
+Overburden overburden(const Grid<D>& grid, const SoilOptions& options, std::size_t stage,
+                      const Vec<D>& place, double step) {
   const double gravity = -grid.gravity()[D - 1];
   Overburden sum;
   Vec<D> x = place;
   for (double share = 0.5; x[D - 1] < grid.upper()[D - 1]; share = 1.0, x[D - 1] += step) {
-    const int number = body_at(options, to_point3(x));
+    const int number = body_at(options, stage, to_point3(x));
     if (number < 0) continue;
     const SoilBody& body = options.bodies[static_cast<std::size_t>(number)];
     sum.effective += share * step * submerged_unit_weight(options, body, gravity);
@@ -123,10 +124,11 @@ SoilParticles<D> seed_points(const Grid<D>& grid, const SoilBody& body, std::siz
 }
 
 template <int D>
-void set_initial_stress(const Grid<D>& grid, const SoilOptions& options,
+void set_initial_stress(const Grid<D>& grid, const SoilOptions& options, std::size_t stage,
                         std::vector<SoilParticles<D>>& bodies) {
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const SoilBody& body = options.bodies[b];
+    if (body.stage != stage) continue;
     const double step = grid.spacing()[D - 1] / points_per_axis<D>(body);
     const auto* geostatic = std::get_if<GeostaticStress>(&body.initial_stress);
     const double k0 = geostatic ? lateral_coefficient(body, *geostatic) : 0.0;
@@ -141,7 +143,7 @@ void set_initial_stress(const Grid<D>& grid, const SoilOptions& options,
         stress = {part[0](place, 0.0), part[1](place, 0.0), part[2](place, 0.0),
                   part[3](place, 0.0), part[4](place, 0.0), part[5](place, 0.0)};
       } else {
-        const Overburden above = overburden(grid, options, bodies[b].position_of(p), step);
+        const Overburden above = overburden(grid, options, stage, bodies[b].position_of(p), step);
         stress.zz = -above.effective;
         stress.xx = stress.yy = -k0 * above.effective;
         if (body.pore_water != PoreWater::none) pore_pressure = above.water;
@@ -158,9 +160,9 @@ template SoilParticles<2> seed_points(const Grid<2>&, const SoilBody&, std::size
                                       std::span<const SolidOptions>);
 template SoilParticles<3> seed_points(const Grid<3>&, const SoilBody&, std::size_t, Transfer, bool,
                                       std::span<const SolidOptions>);
-template void set_initial_stress(const Grid<2>&, const SoilOptions&,
+template void set_initial_stress(const Grid<2>&, const SoilOptions&, std::size_t,
                                  std::vector<SoilParticles<2>>&);
-template void set_initial_stress(const Grid<3>&, const SoilOptions&,
+template void set_initial_stress(const Grid<3>&, const SoilOptions&, std::size_t,
                                  std::vector<SoilParticles<3>>&);
 
 }  // namespace mudlark

@@ -18,12 +18,13 @@ SoilParticles<D> seed_points(const Grid<D>& grid, const SoilBody& body, std::siz
                              Transfer transfer, bool with_extent = false,
                              std::span<const SolidOptions> solids = {});
 
-/// Initial stress and pore pressure of the points of all bodies.
+/// Initial stress and pore pressure of the points of all bodies of a stage.
 /// Geostatic: along each vertical line of the lattice the submerged weight of what lies above is
 /// summed up, sigma'_zz(z) = -integral_z^top (1-n)(rho_s - rho_w) g dz (dry: (1-n) rho_s), sigma'_h
-/// = K0 sigma'_zz, and p = rho_w g (depth below the top of the soil).
+/// = K0 sigma'_zz, and p = rho_w g (depth below the top of the soil). Bodies of other stages weigh
+/// nothing here.
 template <int D>
-void set_initial_stress(const Grid<D>& grid, const SoilOptions& options,
+void set_initial_stress(const Grid<D>& grid, const SoilOptions& options, std::size_t stage,
                         std::vector<SoilParticles<D>>& bodies);
 
 }  // namespace mudlark

@@ -38,6 +38,7 @@ class SoilSides {
   const Grid<D>& grid() const { return *grid_; }
   double water_density() const { return water_density_; }  ///< [kg/m3]
   double inertia() const { return inertia_; }
+  void set_inertia(double factor) { inertia_ = factor; }
 
   /// Takes pressures, fluxes and motions of the step from `time` to `time + dt` [s].
   void update(double time, double dt);

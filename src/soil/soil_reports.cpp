@@ -12,16 +12,19 @@
 
 namespace mudlark {
 
-/// Adds the work of the open outer step, once per step whoever asks, so that sums are the same in a
-/// resumed run.
+/// Adds the work of the open outer step and what left in it, once per step whoever asks, so that
+/// sums are the same in a resumed run.
 template <int D>
-void SoilSolver<D>::settle_energy() {
-  const std::array<double, 4> mine{recent_energy_.external, recent_energy_.internal,
-                                   recent_energy_.drag, recent_energy_.damping};
-  std::array<double, 4> all{};
-  MPI_Allreduce(mine.data(), all.data(), 4, MPI_DOUBLE, MPI_SUM, grid_->comm());
+void SoilSolver<D>::settle_sums() {
+  const std::array<double, 5> mine{recent_energy_.external, recent_energy_.internal,
+                                   recent_energy_.drag, recent_energy_.damping,
+                                   recently_removed_mass_};
+  std::array<double, 5> all{};
+  MPI_Allreduce(mine.data(), all.data(), 5, MPI_DOUBLE, MPI_SUM, grid_->comm());
   energy_ += SoilEnergy{0.0, all[0], all[1], all[2], all[3]};
+  removed_grain_mass_ += all[4];
   recent_energy_ = SoilEnergy{};
+  recently_removed_mass_ = 0.0;
 }
 
 /// Keeps where and in which state the first point that a law could not integrate was.
@@ -112,21 +115,23 @@ typename SoilSolver<D>::Totals SoilSolver<D>::totals() const {
     mine[4] += static_cast<double>(points.size());
     total_grain_mass += grain_mass.over_ranks(grid_->comm());
   }
-  mine[3] = removed_grain_mass_;
+  mine[3] = recently_removed_mass_;
   std::array<double, 5 + D> all{};
   MPI_Allreduce(mine.data(), all.data(), 5 + D, MPI_DOUBLE, MPI_SUM, grid_->comm());
   Totals totals{total_grain_mass,
                 all[1],
                 options_.mass_scaling * all[2],
                 {},
-                all[3],
+                removed_grain_mass_ + all[3],
+                excavated_grain_mass_,
+                placed_grain_mass_,
                 static_cast<long long>(all[4])};
   for (int a = 0; a < D; ++a) totals.momentum[a] = all[static_cast<std::size_t>(5 + a)];
   return totals;
 }
 
-template void SoilSolver<2>::settle_energy();
-template void SoilSolver<3>::settle_energy();
+template void SoilSolver<2>::settle_sums();
+template void SoilSolver<3>::settle_sums();
 template void SoilSolver<2>::note_failed_stress(std::size_t, const StressResult&);
 template void SoilSolver<3>::note_failed_stress(std::size_t, const StressResult&);
 template void SoilSolver<2>::report_bad_point(double, std::size_t) const;

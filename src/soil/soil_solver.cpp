@@ -72,6 +72,9 @@ SoilSolver<D>::SoilSolver(const Grid<D>& grid, const SoilOptions& options)
         "transfer = \"apic\" needs kernel = \"quadratic\" or \"composite\" (the inertia of a "
         "linear "
         "stencil vanishes at its nodes); or use transfer = \"flip\".");
+  defaults_.damping = options.damping, defaults_.water_damping = options.water_damping;
+  defaults_.mass_scaling = options.mass_scaling, defaults_.method = options.method;
+  defaults_.stop_when_static = options.stop_when_static;
   for (const SoilBody& body : options.bodies) {
     const bool wet = body.pore_water == PoreWater::two_phase;
     constants_.push_back({body.grain_density, body.porosity, wet ? options.water_density : 0.0,
@@ -103,12 +106,15 @@ void SoilSolver<D>::initialise() {
     points_.push_back(seed_points(*grid_, options_.bodies[b], b, options_.transfer,
                                   options_.split_stretched || !options_.solids.empty(),
                                   options_.solids));
-  set_initial_stress(*grid_, options_, points_);
+  for (std::size_t b = 0; b < options_.bodies.size(); ++b)
+    if (options_.bodies[b].stage > 0) points_[b].resize(0);
+  set_initial_stress(*grid_, options_, 0, points_);
   for (std::size_t b = 0; b < points_.size(); ++b)
     initialise_material_state(points_[b], *laws_[b], options_.bodies[b].strain,
                               options_.bodies[b].porosity);
   energy_ = SoilEnergy{};
   energy_.start_kinetic = totals().kinetic_energy;
+  apply_stage(0);
   redistribute();
 }
 
@@ -121,9 +127,9 @@ bool SoilSolver<D>::two_phase() const {
 template <int D>
 void SoilSolver<D>::redistribute() {
   for (std::size_t b = 0; b < points_.size(); ++b) try {
-      removed_grain_mass_ += migrate(sides_, points_[b]);
+      recently_removed_mass_ += migrate(sides_, points_[b]);
       if (options_.split_stretched)
-        removed_grain_mass_ += split_stretched(
+        recently_removed_mass_ += split_stretched(
             sides_, {*options_.split_stretched, most_points * options_.bodies[b].points_per_cell},
             points_[b]);
       sort_by_cell(*grid_, points_[b]);
@@ -166,7 +172,7 @@ double SoilSolver<D>::stable_step() const {
 
 template <int D>
 void SoilSolver<D>::begin_step(double time, double length, const FluidLoad<D>* water) {
-  settle_energy();
+  settle_sums();
   redistribute();
   time_ = time;
   length_ = length;

@@ -46,6 +46,12 @@ class SoilSolver {
   /// when the soil finds no rest. Collective.
   void find_equilibrium();
 
+  /// Enters a stage of the run: its settings, soil taken out and placed, displacements from here
+  /// on. Collective.
+  void begin_stage(std::size_t stage);
+  /// Only the settings: for a state that was loaded within the stage.
+  void apply_stage(std::size_t stage);
+
   /// Sends points to their owners, sorts them, and finds where soil is. Collective.
   void redistribute();
   /// Largest stable step of `advance` [s]: courant * limit of the kernel * h / (c + |v|), c the
@@ -93,6 +99,8 @@ class SoilSolver {
     double kinetic_energy = 0.0;                ///< with the scaled inertia [J]
     Vec<D> momentum{};                          ///< [kg m/s]
     double removed_grain_mass = 0.0;            ///< left through open sides [kg]
+    double excavated_grain_mass = 0.0;          ///< taken out at the start of stages [kg]
+    double placed_grain_mass = 0.0;             ///< placed at the start of stages [kg]
     long long points = 0;
   };
   Totals totals() const;  ///< over all ranks; collective
@@ -104,23 +112,28 @@ class SoilSolver {
   /// Largest distance of a point from its place at the start [m]. Collective.
   double largest_displacement() const;
 
+  /// Is the balance of energy that of the whole run? Implicit steps do not keep it.
+  bool keeps_energy() const;
+
   /// How far from rest the soil is, with the loads at the end of the step; nothing before the first
   /// step. Collective.
   std::optional<Statics> statics();
 
   /// Work since the start, over all ranks; collective.
   const SoilEnergy& energy() {
-    settle_energy();
+    settle_sums();
     return energy_;
   }
 
   template <class Archive>
   void archive(Archive& a) {
-    settle_energy();
+    settle_sums();
     energy_.archive(a);
     for (std::size_t b = 0; b < points_.size(); ++b) points_[b].archive(a, options_.bodies[b].name);
     for (Solid& solid : solids_) solid.archive(a);
     a.number("soil/removed grain mass", removed_grain_mass_);
+    a.number("soil/excavated grain mass", excavated_grain_mass_);
+    a.number("soil/placed grain mass", placed_grain_mass_);
     a.number("soil/time", time_);
     a.number("soil/next implicit step", next_step_);
     if (projection_) projection_->archive(a);
@@ -146,8 +159,9 @@ class SoilSolver {
   void update_points(double dt);
   std::size_t update_block(std::size_t body, PointRange block, double dt);
   void sort_strays();
+  void place_bodies(std::size_t stage);
   double squared_force_on_free_faces();
-  void settle_energy();
+  void settle_sums();
   void advance_implicitly(double dt, int cuts);
   void note_failed_stress(std::size_t body, const StressResult& result);
   void report_bad_point(double largest_speed, std::size_t failed) const;
@@ -174,10 +188,13 @@ class SoilSolver {
   PointMotion point_motion_;
   IndexBox<D> active_{};
   double time_ = 0.0;
-  double step_ = 0.0;       ///< of the motion being computed [s]
-  double travelled_ = 0.0;  ///< bound on how far any point moved since redistribute(), in cells
-  double removed_grain_mass_ = 0.0;
-  bool solids_wait_ = false;   ///< given motion has not begun
+  double step_ = 0.0;         ///< of the motion being computed [s]
+  double travelled_ = 0.0;    ///< bound on how far any point moved since redistribute(), in cells
+  bool solids_wait_ = false;  ///< given motion has not begun
+  double removed_grain_mass_ = 0.0;     ///< up to the last settle_sums(), over all ranks
+  double recently_removed_mass_ = 0.0;  ///< of this rank since then
+  double excavated_grain_mass_ = 0.0, placed_grain_mass_ = 0.0;  ///< over all ranks
+  SoilStage defaults_;                                           ///< of what a stage may set
   SoilEnergy energy_;          ///< up to the open outer step, over all ranks
   SoilEnergy recent_energy_;   ///< of this rank since then
   double next_step_ = 0.0;     ///< that the last implicit step recommends [s]

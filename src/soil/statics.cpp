@@ -35,22 +35,34 @@ class WithoutStress {
   std::vector<decltype(SoilParticles<D>::pore_pressure)> pressure_;
 };
 
+/// Does a side hold a face: one that lies in it, or one of the row along a side of friction, which
+/// takes its share of the force only when momentum is solved?
+template <int D>
+bool held_by_side(const SoilSides<D>& sides, const Index<D>& face, int component) {
+  const Grid<D>& grid = sides.grid();
+  for (int a = 0; a < D; ++a)
+    for (const int side : {0, 1}) {
+      const int last = grid.cells()[a] - (a == component ? 0 : 1);
+      if (!grid.touches(a, side) || face[a] != (side == 0 ? 0 : last)) continue;
+      if (a == component ? sides.node(a, side, a, face).mirrored
+                         : sides.grains(a, side, face) == GrainSide::friction)
+        return true;
+    }
+  return false;
+}
+
 }  // namespace
 
-/// Sum of the squared forces on the faces of this rank that no wall holds [N2].
+/// Sum of the squared forces on the faces of this rank that no side holds [N2].
 template <int D>
 double SoilSolver<D>::squared_force_on_free_faces() {
   gather_nodes();
   double sum = 0.0;
   for (int d = 0; d < D; ++d) {
-    const auto held = [&](int side, const Index<D>& face) {
-      return grid_->touches(d, side) && face[d] == (side == 0 ? 0 : grid_->cells()[d]) &&
-             sides_.node(d, side, d, face).mirrored;
-    };
     const NodeSums* sums = sums_[static_cast<std::size_t>(d)].data();
     // Bodies press on soil from outside, as loads do: as hard as in the last step.
     for_each(grid_->owned_faces(d).intersected(active_), [&](const Index<D>& face) {
-      if (held(0, face) || held(1, face)) return;
+      if (held_by_side(sides_, face, d)) return;
       const std::ptrdiff_t at = grid_->offset(face);
       const double solid = solid_contact_ ? solid_contact_->force(d, at) : 0.0;
       const double force = sums[at].mixture_force + solid;
@@ -74,7 +86,7 @@ std::optional<Statics> SoilSolver<D>::statics() {
     squares[1] = squared_force_on_free_faces();
   }
   MPI_Allreduce(squares.data(), all.data(), 2, MPI_DOUBLE, MPI_SUM, grid_->comm());
-  settle_energy();
+  settle_sums();
   return Statics{share_of(std::sqrt(all[0]), std::sqrt(all[1])),
                  share_of(totals().kinetic_energy, std::abs(energy_.external))};
 }

@@ -7,13 +7,21 @@ namespace mudlark {
 template <int D>
 SurfaceLoads<D>::SurfaceLoads(const Grid<D>& grid, std::vector<SurfaceLoad> loads)
     : grid_(&grid),
-      loads_(std::move(loads)),
+      all_loads_(std::move(loads)),
       loads_begin_(grid, "load", "Pa"),
       loads_end_(grid, "load", "Pa"),
       water_begin_(grid, "load on water", "Pa"),
       water_end_(grid, "load on water", "Pa"),
       traction_(grid, "surface pressure", "Pa"),
       drained_(grid, "drainage pressure", "Pa") {
+  set_active({});
+}
+
+template <int D>
+void SurfaceLoads<D>::set_active(std::optional<std::vector<bool>> active) {
+  loads_.clear();
+  for (std::size_t i = 0; i < all_loads_.size(); ++i)
+    if (!active || active->at(i)) loads_.push_back(all_loads_[i]);
   on_water_ = std::any_of(loads_.begin(), loads_.end(),
                           [](const SurfaceLoad& load) { return load.on == LoadedPhase::water; });
 }

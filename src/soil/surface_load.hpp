@@ -1,5 +1,6 @@
 #pragma once
 /// Pressure on the soil's surface during a step: loads of the case and the free water, in time.
+#include <optional>
 #include <vector>
 
 #include "soil/fluid_load.hpp"
@@ -14,6 +15,8 @@ class SurfaceLoads {
  public:
   SurfaceLoads(const Grid<D>& grid, std::vector<SurfaceLoad> loads);
 
+  /// Which of the loads act from now on, in their order; nothing: all.
+  void set_active(std::optional<std::vector<bool>> active);
   /// Samples the loads at both ends of [begin, begin + length] (linear between) on the cells of
   /// `box`. `water` must live until the step is over; null: no free water.
   void begin_step(double begin, double length, const FluidLoad<D>* water, const IndexBox<D>& box);
@@ -27,7 +30,7 @@ class SurfaceLoads {
   bool loaded() const { return water_ || !loads_.empty(); }
 
   const Grid<D>* grid_;
-  std::vector<SurfaceLoad> loads_;
+  std::vector<SurfaceLoad> all_loads_, loads_;  ///< and those that act
   const FluidLoad<D>* water_ = nullptr;
   double begin_ = 0.0, length_ = 0.0;
   IndexBox<D> box_{};

@@ -36,6 +36,8 @@ TEST_F(Ranks, GiveTheSameThrownBlockOfSoilIn3D) { expect_the_same_on_all_ranks("
 
 TEST_F(Ranks, GiveTheSameLumpWhosePointsAreSplit) { expect_the_same_on_all_ranks("drawn"); }
 
+TEST_F(Ranks, GiveTheSameStages) { expect_the_same_on_all_ranks("stages"); }
+
 TEST_F(Ranks, GiveTheSameFlowAgainstAPorousBlockIn3D) { expect_the_same_on_all_ranks("flow_3d"); }
 
 }  // namespace

@@ -76,6 +76,23 @@ TEST_F(Resume, AfterKillsGivesTheSameBitsOfACoupledRunIn3D) {
 }
 TEST_F(Resume, AfterKillsGivesTheSameBitsOfSoilAlone) { kill_and_resume("soil_3d", 1, 3, 4); }
 TEST_F(Resume, AfterKillsGivesTheSameBitsOfSplitPoints) { kill_and_resume("drawn", 2, 2, 6); }
+TEST_F(Resume, AfterKillsGivesTheSameBitsOfStages) { kill_and_resume("stages", 2, 3, 7); }
+
+/// In the middle of every stage, and where one ends and the next has not begun.
+TEST_F(Resume, InAnyStageGoesOnAsAStraightRun) {
+  straight("stages", 1);
+  std::vector<std::string> more;
+  for (const char* until : {"0.01", "0.02", "0.032", "0.04", "0.046", "0.05", "0.06", "0.07"}) {
+    std::vector<std::string> part = more;
+    part.insert(part.end(), {"--until", until});
+    const Result result = run("stages", 1, "parts", part);
+    ASSERT_EQ(result.code, 0) << until << result.output;
+    more = {"--resume"};
+  }
+  compare_gauges("straight", "parts", 0.0);
+  EXPECT_EQ(entry_of(results("parts"), "grains taken out [kg]"),
+            entry_of(results("straight"), "grains taken out [kg]"));
+}
 TEST_F(Resume, AfterKillsGivesTheSameBitsOfFlowAlone) { kill_and_resume("flow_3d", 2, 3, 5); }
 
 TEST_F(Resume, OnAnotherNumberOfRanksGivesTheSameNumbers) {

@@ -149,5 +149,46 @@ TEST(Clock, KnowsMultiplesOfAPeriodDespiteRoundOff) {
   EXPECT_TRUE(Clock::due(0.1234, 0.0));
 }
 
+TEST(Clock, EndsStepsAtTheEndsOfStagesAndPassesOverWhatIsLeftOfOne) {
+  TimeOptions options = until(3.0);
+  options.stage_ends = {0.7, 1.9, 3.0};
+  Clock clock(options, {});
+  std::vector<double> ends;
+  while (!clock.finished()) {
+    if (clock.stage_over()) clock.begin_next_stage();
+    clock.advance(clock.choose_step(0.13));
+    if (clock.at_stage_end()) {
+      ends.push_back(clock.time());
+      EXPECT_TRUE(clock.output_due());
+    }
+  }
+  EXPECT_EQ(ends, options.stage_ends);
+  EXPECT_EQ(clock.stage(), 2u);
+  Clock restful(options, {});
+  restful.advance(restful.choose_step(0.13));
+  restful.pass_to_stage_end();
+  EXPECT_EQ(restful.time(), 0.7);
+  EXPECT_TRUE(restful.stage_over());
+  Memory memory;
+  restful.archive(memory);
+  Clock again(options, {});
+  memory.reading = true;
+  again.archive(memory);
+  EXPECT_TRUE(again.stage_over());
+  again.begin_next_stage();
+  EXPECT_FALSE(again.stage_over());
+  EXPECT_FALSE(again.in_last_stage());
+}
+
+TEST(Clock, WithoutStagesIsInTheOnlyOne) {
+  Clock clock(until(1.0), {});
+  EXPECT_TRUE(clock.in_last_stage());
+  while (!clock.finished()) {
+    EXPECT_FALSE(clock.stage_over());
+    EXPECT_FALSE(clock.at_stage_end());
+    clock.advance(clock.choose_step(0.3));
+  }
+}
+
 }  // namespace
 }  // namespace mudlark

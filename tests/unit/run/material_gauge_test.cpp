@@ -133,5 +133,27 @@ TEST(MaterialGauge, FollowsTheMaterialThroughAPeriodicSeam) {
   EXPECT_NEAR(read_material(grid, soil, MaterialQuantity::pore_pressure, far)[0], before, 1e-2);
 }
 
+/// Ground that has moved and fill that is placed upon it later.
+TEST(MaterialGauge, FollowsTheSoilThatStartedNearestAndNotWhatWasPlacedBesideIt) {
+  const Grid<2> grid = make_grid<2>(Wall::slip);
+  SoilOptions options = make_soil(4);
+  options.stages.resize(2);
+  options.bodies.push_back(options.bodies[0]);
+  options.bodies[1].stage = 1;
+  options.bodies[1].shape.form = BoxShape{{-1.0, -1.0, 0.9}, {9.0, 9.0, 1.1}};
+  SoilSolver<2> soil(grid, options);
+  soil.initialise();
+  const auto settlement = [&](double height) {
+    return read_material(grid, soil, MaterialQuantity::displacement, Vec<2>{0.6, height}).at(1);
+  };
+  for (double& z : soil.points(0).position[1]) z += 0.002;
+  EXPECT_NEAR(settlement(0.95), 0.002, 1e-12)
+      << "the ground's surface goes on where nothing else is";
+  soil.begin_stage(1);
+  EXPECT_NEAR(settlement(0.85), 0.002, 1e-12);
+  EXPECT_NEAR(settlement(0.9), 0.002, 1e-12) << "as near to both: the older one";
+  EXPECT_NEAR(settlement(0.95), 0.0, 1e-12);
+}
+
 }  // namespace
 }  // namespace mudlark

@@ -137,7 +137,7 @@ void expect_geostatic_layers() {
   const Grid<D> grid = make_grid<D>(MPI_COMM_WORLD);
   const SoilOptions options = make_layers<D>();
   auto bodies = seed<D>(grid, options);
-  set_initial_stress(grid, options, bodies);
+  set_initial_stress(grid, options, 0, bodies);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const double k0 = b == 0 ? 0.8 : 0.25 / 0.75;
     for (std::size_t p = 0; p < bodies[b].size(); ++p) {
@@ -165,10 +165,10 @@ TEST(InitialStress, TakesAGivenTensorAndAddsAGivenPorePressure) {
   options.bodies[0].initial_stress = SymTensor{1, 2, 3, 4, 5, 6};
   options.bodies[0].initial_pore_pressure = excess;
   auto given = seed<2>(grid, options);
-  set_initial_stress(grid, options, given);
+  set_initial_stress(grid, options, 0, given);
   options.bodies[0].initial_stress = GeostaticStress{};
   auto geostatic = seed<2>(grid, options);
-  set_initial_stress(grid, options, geostatic);
+  set_initial_stress(grid, options, 0, geostatic);
   for (std::size_t p = 0; p < given[0].size(); ++p) {
     const double x = given[0].position[0][p], z = given[0].position[1][p];
     EXPECT_EQ(get_tensor(given[0].stress, p), (SymTensor{1, 2, 3, 4, 5, 6}));
@@ -185,7 +185,7 @@ TEST(InitialStress, TakesAStressThatVariesInSpace) {
   field.component[5] = Varying([](const Point3& x, double) { return 50.0 * x[0]; }, "zx");
   options.bodies[1].initial_stress = field;
   auto bodies = seed<2>(grid, options);
-  set_initial_stress(grid, options, bodies);
+  set_initial_stress(grid, options, 0, bodies);
   for (std::size_t p = 0; p < bodies[1].size(); ++p) {
     const SymTensor stress = get_tensor(bodies[1].stress, p);
     EXPECT_NEAR(stress.zz, -1e3 * (3.0 - bodies[1].position[1][p]), 1e-9);
