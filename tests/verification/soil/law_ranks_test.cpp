@@ -69,8 +69,10 @@ const std::vector<Setting>& settings() {
       {"tresca", soft_clay(), false, Transfer::apic, StrainMeasure::jaumann},
       {"mu-i", flowing_sand(), false, Transfer::apic, StrainMeasure::jaumann},
       {"modified-cam-clay", clay(), true, Transfer::flip, StrainMeasure::jaumann},
-      // Where waves turn its loading round within a few steps, round-off grows a hundredfold a step.
-      {"sanisand", SanisandOptions::toyoura(), false, Transfer::flip, StrainMeasure::jaumann, true}};
+      // Where waves turn its loading round within a few steps, round-off grows a hundredfold a
+      // step.
+      {"sanisand", SanisandOptions::toyoura(), false, Transfer::flip, StrainMeasure::jaumann,
+       true}};
   return all;
 }
 
@@ -93,7 +95,8 @@ Values values_of(const SoilSolver<D>& soil) {
     v.push_back(points.pore_pressure[p] / 1e4);
     v.push_back(points.volume[p] / points.start_volume[p]);
     v.push_back(D == 3 ? points.velocity[1][p] : 0.0);
-    all[{std::lround(points.start[0][p] / (0.25 * h)), std::lround(points.start[D - 1][p] / (0.25 * h))}] = v;
+    all[{std::lround(points.start[0][p] / (0.25 * h)),
+         std::lround(points.start[D - 1][p] / (0.25 * h))}] = v;
   }
   return all;
 }
