@@ -88,8 +88,15 @@ def run_section(summary):
     status = summary.get("status", "unknown")
     colour = "done" if status == "done" else "other"
     text = f'<p class="{colour}"><b>{html.escape(str(status))}</b> {html.escape(str(summary.get("message", "")))}</p>'
-    rows = [row for row in flat({k: v for k, v in summary.items() if k not in ("gauges", "status", "message")})]
+    rows = [row for row in flat({k: v for k, v in summary.items() if k not in ("gauges", "stages", "status", "message")})]
     return text + table(rows)
+
+
+def stage_section(stages):
+    """What became of the stages of a run that has some."""
+    rows = [[stage["name"]] + [shown(value) for key, value in stage.items() if key != "name"] for stage in stages]
+    heads = ["stage", *(key for key in stages[0] if key != "name")]
+    return f"<h2>Stages</h2>{table(rows, heads)}"
 
 
 def gauge_rows(results):
@@ -128,6 +135,8 @@ def write_report(folder, out=None, most_frames=40):
     title = next((line.split("=", 1)[1].strip().strip('"') for line in text.splitlines() if line.startswith("title")),
                  results.folder.name)
     sections = ["<h2>Run</h2>" + run_section(summary)]
+    if summary.get("stages"):
+        sections.append(stage_section(summary["stages"]))
     with plt.rc_context(plot.STYLE):
         if results.times:
             sections.append("<h2>State</h2>" + state_section(results, most_frames))

@@ -7,6 +7,20 @@
 #include "soil/soil_solver.hpp"
 
 namespace mudlark {
+namespace {
+
+/// Velocities of implicit steps are displacements over a step of any length, not motion with
+/// inertia.
+template <int D>
+void stop(SoilParticles<D>& points) {
+  const auto set_zero = [](auto& quantity, int components) {
+    for (int c = 0; c < components; ++c) std::fill(quantity[c].begin(), quantity[c].end(), 0.0);
+  };
+  set_zero(points.velocity, D), set_zero(points.water_velocity, D);
+  set_zero(points.affine, D * D), set_zero(points.water_affine, D * D);
+}
+
+}  // namespace
 
 template <int D>
 void SoilSolver<D>::apply_stage(std::size_t stage) {
@@ -27,7 +41,10 @@ void SoilSolver<D>::apply_stage(std::size_t stage) {
 template <int D>
 void SoilSolver<D>::begin_stage(std::size_t stage) {
   const Totals before = totals();
+  const bool was_implicit = is_implicit();
   apply_stage(stage);
+  if (was_implicit && !is_implicit())
+    for (auto& points : points_) stop(points);
   next_step_ = 0.0;  // what the last stage's steps recommended is past
   const SoilStage& own = options_.stages.at(stage);
   if (own.remove)
