@@ -47,6 +47,24 @@ TrescaOptions soft_clay() {
   return law;
 }
 
+VonMisesOptions softening_clay() {
+  VonMisesOptions law;
+  law.young_modulus = 1e6, law.poisson_ratio = 0.45, law.undrained_strength = 1000.0;
+  law.residual = UndrainedResidual{};
+  law.residual->strength = 700.0;
+  law.residual->softening.strain = 0.1;
+  return law;
+}
+
+SekiguchiOhtaOptions anisotropic_clay() {
+  SekiguchiOhtaOptions law;
+  law.compression_index = 0.1, law.swelling_index = 0.02, law.critical_stress_ratio = 1.1;
+  law.overconsolidation_ratio = 1.5;
+  return law;
+}
+
+NewtonianOptions mud() { return {1e6, 1.0, 0.0}; }
+
 MuIOptions flowing_sand() {
   MuIOptions law;
   law.young_modulus = 1e6, law.poisson_ratio = 0.3, law.grain_diameter = 1e-3;
@@ -67,6 +85,9 @@ const std::vector<Setting>& settings() {
       {"mohr-coulomb, hencky, wet", weakening_sand(), true, Transfer::apic, StrainMeasure::hencky},
       {"drucker-prager", rubble(), true, Transfer::flip, StrainMeasure::jaumann},
       {"tresca", soft_clay(), false, Transfer::apic, StrainMeasure::jaumann},
+      {"von-mises, softening", softening_clay(), false, Transfer::flip, StrainMeasure::jaumann},
+      {"newtonian", mud(), false, Transfer::flip, StrainMeasure::jaumann},
+      {"sekiguchi-ohta", anisotropic_clay(), true, Transfer::flip, StrainMeasure::jaumann},
       {"mu-i", flowing_sand(), false, Transfer::apic, StrainMeasure::jaumann},
       {"modified-cam-clay", clay(), true, Transfer::flip, StrainMeasure::jaumann},
       // Where waves turn its loading round within a few steps, round-off grows a hundredfold a
@@ -106,7 +127,7 @@ template <int D>
 Values run_block(MPI_Comm comm, const Setting& setting) {
   DomainOptions domain;
   domain.dimension = D;
-  domain.cells = {setting.gently ? 5 : 12, D == 2 ? 8 : 1, 8};
+  domain.cells = {setting.gently ? 6 : 12, D == 2 ? 8 : 1, 8};
   for (std::size_t a = 0; a < static_cast<std::size_t>(D); ++a)
     domain.upper[a] = domain.cells[a] * h;
   domain.walls[0] = {Wall::slip, setting.gently ? Wall::slip : Wall::open};
@@ -114,7 +135,8 @@ Values run_block(MPI_Comm comm, const Setting& setting) {
   domain.wall_friction[D - 1][0] = 0.4;
   domain.gravity[D - 1] = -9.81;
   const Grid<D> grid(domain, comm);
-  SoilOptions options = make_soil(D, {-1, -1, -1}, {0.5, D == 2 ? 0.4 : 9, 0.4}, setting.wet);
+  SoilOptions options =
+      make_soil(D, {-1, -1, -1}, {setting.gently ? 0.6 : 0.5, D == 2 ? 0.4 : 9, 0.4}, setting.wet);
   options.transfer = setting.transfer;
   options.bodies[0].law = setting.law;
   options.bodies[0].strain = setting.strain;
