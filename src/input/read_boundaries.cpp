@@ -254,4 +254,50 @@ void read_boundaries(Section& root, CaseOptions& options) {
   }
 }
 
+namespace {
+
+/// What a boundary asks for that this case cannot do yet, and because of what; empty if all is
+/// well.
+std::string not_available(const SoilOptions& soil, const SoilBoundary& boundary) {
+  const GrainSide grains = boundary.for_grains ? boundary.grains : GrainSide::slip;
+  const bool drains = boundary.for_water && boundary.water != WaterSide::sealed;
+  const bool moves = grains == GrainSide::moving || grains == GrainSide::absorbing;
+  if (takes_implicit_steps(soil)) {
+    if (lets_grains_through(grains) || grains == GrainSide::friction)
+      return "grains other than \"slip\", \"fixed\" and moving ones need "
+             "soil_solver.method = \"explicit\"";
+    return {};
+  }
+  const char* what = moves ? "sides that move or absorb" : "pore_water other than \"sealed\"";
+  if ((drains || moves) && soil.formulation != Formulation::u_w)
+    return fmt::format("{} need formulation = \"u-w\" under [[soil]]", what);
+  if ((drains || moves) && !soil.solids.empty())
+    return fmt::format("{} do not go with [[solid]] yet", what);
+  return {};
+}
+
+}  // namespace
+
+void check_boundaries(Section& root, const CaseOptions& options) {
+  if (!options.soil) return;
+  const Value* value = root.raw("boundary");
+  const auto* list = value ? std::get_if<List>(&value->data) : nullptr;
+  const auto& boundaries = options.soil->boundaries;
+  for (std::size_t b = 0; b < boundaries.size() && list && b < list->size(); ++b) {
+    const std::string problem = not_available(*options.soil, boundaries[b]);
+    if (!problem.empty())
+      root.reading().report.add(
+          (*list)[b].place,
+          fmt::format("boundary \"{}\" is not possible\n  ({}).", boundaries[b].name, problem));
+  }
+  if (!takes_implicit_steps(*options.soil)) return;
+  for (const auto& axis : options.domain.walls)
+    for (const Wall wall : axis)
+      if (wall == Wall::friction)
+        return root.reading().report.add(
+            root.place("domain"),
+            "a wall of friction needs soil_solver.method = \"explicit\"\n  (implicit steps know no "
+            "friction yet). Write \"slip\" or \"no-slip\".");
+}
+
 }  // namespace mudlark

@@ -89,18 +89,16 @@ void read_solid_name(Section& section, const CaseOptions& options, GaugeOptions&
   gauge.of = section.choice<std::string>("of", choices);
 }
 
-/// The boundary whose discharge is measured.
-void read_boundary(Section& section, const SoilOptions& soil, GaugeOptions& gauge) {
-  gauge.boundary = section.text("boundary");
-  std::vector<std::string> names;
+/// of = "NAME" of a boundary that says something of pore water.
+void read_boundary_name(Section& section, const SoilOptions& soil, GaugeOptions& gauge) {
+  std::vector<Choice<std::string>> choices;
   for (const SoilBoundary& boundary : soil.boundaries)
-    if (boundary.for_water) names.push_back(boundary.name);
-  if (!section.has("boundary") ||
-      std::find(names.begin(), names.end(), gauge.boundary) != names.end())
-    return;
-  section.fail("boundary", names.empty()
-                               ? "the case has no [[boundary]] with pore_water"
-                               : "the boundaries with pore_water are " + quoted_list(names));
+    if (boundary.for_water) choices.push_back({boundary.name, boundary.name});
+  if (choices.empty()) {
+    section.has("of");
+    return section.fail("quantity", "the case has no [[boundary]] with pore_water");
+  }
+  gauge.of = section.choice<std::string>("of", choices);
 }
 
 }  // namespace
@@ -123,6 +121,8 @@ void read_gauges(Section& root, CaseOptions& options) {
       section.fail("quantity", "it measures soil, and the case has no [[soil]]");
     if (known && kind.of == Of::solid)
       read_solid_name(section, options, gauge);
+    else if (known && gauge.quantity == GaugeQuantity::discharge && options.soil)
+      read_boundary_name(section, *options.soil, gauge);
     else if (known)
       section.forbid("of", fmt::format("{} is not measured on a rigid body", kind.name));
     else
@@ -137,8 +137,6 @@ void read_gauges(Section& root, CaseOptions& options) {
                            : gauge.quantity == GaugeQuantity::discharge
                                ? "it is measured at a boundary"
                                : fmt::format("{} is measured in the whole domain", kind.name));
-    if (known && gauge.quantity == GaugeQuantity::discharge && options.soil)
-      read_boundary(section, *options.soil, gauge);
     gauge.every =
         section.number("every", quantity::time,
                        not_negative("the time between values; 0 for every step"), gauge.every);

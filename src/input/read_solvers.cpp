@@ -44,13 +44,30 @@ EquilibriumStart read_equilibrium(Section& solver, const Bounds& coefficient) {
   section.finish();
   return start;
 }
+/// The same for implicit steps, which find it without moving there.
+EquilibriumStart read_implicit_equilibrium(Section& solver) {
+  Section section = solver.table("start_in_equilibrium", Record::Form::inline_table);
+  EquilibriumStart start;
+  start.longest = section
+                      .number_if_set("longest", quantity::time,
+                                     positive("the simulated time in which pore water may drain",
+                                              "Leave it out to let all of it drain."))
+                      .value_or(0.0);
+  for (const std::string_view key : {"unbalanced_force", "kinetic_energy", "damping"})
+    section.forbid(key, "implicit steps have no inertia: they end in equilibrium");
+  start.reset_displacements = section.flag("reset_displacements", start.reset_displacements);
+  section.finish();
+  return start;
+}
 
 /// Local damping of both phases, scaled inertia, and when to stop.
 void read_statics(Section& section, SoilOptions& soil, bool water_flows) {
   if (soil.method == TimeMethod::implicit_steps) {  // without their defaults in the resolved case
     for (const std::string_view key :
-         {"damping", "water_damping", "mass_scaling", "stop_when_static", "start_in_equilibrium"})
+         {"damping", "water_damping", "mass_scaling", "stop_when_static"})
       section.forbid(key, "implicit steps have no inertia: they are at rest after each step");
+    if (section.has("start_in_equilibrium"))
+      soil.start_in_equilibrium = read_implicit_equilibrium(section);
     return;
   }
   const Bounds coefficient = damping_bounds();
@@ -114,6 +131,14 @@ void read_soil_solver(Section& root, SoilOptions& soil, bool water_flows,
       share(1.0, "the error of an implicit step as a share of the largest displacement so far"),
       soil.step_tolerance);
   read_formulation_keys(section, soil);
+  soil.linear_solver = section.choice<LinearSolver>("linear_solver",
+                                                    {{"auto", LinearSolver::automatic},
+                                                     {"direct", LinearSolver::direct},
+                                                     {"iterative", LinearSolver::iterative}},
+                                                    soil.linear_solver);
+  if (soil.linear_solver == LinearSolver::iterative && soil.kernel != Kernel::composite)
+    section.fail("linear_solver", "the iterations rest on the divergence of composite splines",
+                 "Use kernel = \"composite\", or linear_solver = \"direct\".");
   soil.load_form = section.choice<LoadForm>(
       "load_form", {{"virtual-stress", LoadForm::virtual_stress}, {"facets", LoadForm::facets}},
       soil.load_form);
@@ -168,13 +193,6 @@ void check_method(Section& root, const SoilOptions& soil, bool water_flows) {
         "soil_solver.method = \"implicit\" finds pore pressure in its own way\n  (formulation "
         "= \"u-w-p\" and \"u-p\" are explicit in the skeleton). Leave formulation out of "
         "[[soil]], or write method = \"explicit\".");
-  if (!soil.boundaries.empty() && implicit)
-    report.add(root.place("boundary"),
-               "[[boundary]] is not available yet with soil_solver.method = \"implicit\"");
-  if (!soil.boundaries.empty() && soil.formulation != Formulation::u_w)
-    report.add(root.place("boundary"),
-               "[[boundary]] needs formulation = \"u-w\" under [[soil]]\n  (the pore pressure of "
-               "u-w-p and u-p knows sealed sides only).");
   if (soil.solids.empty()) return;
   if (implicit)
     report.add(root.place("solid"),

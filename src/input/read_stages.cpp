@@ -43,8 +43,6 @@ void check_method(Stage& stage, const SoilOptions& soil, bool water_flows) {
       section.forbid(key, "implicit steps have no inertia: they are at rest after each step");
     if (water_flows)
       section.fail("method", "it has no inertia and cannot follow flowing water ([[water.body]])");
-    if (!soil.boundaries.empty())
-      section.fail("method", "[[boundary]] is not available yet with implicit steps");
     if (soil.formulation != Formulation::u_w)
       section.fail("method", "implicit steps find pore pressure in their own way",
                    "Leave formulation out of [[soil]].");
@@ -142,11 +140,10 @@ void finish_stages(std::vector<Stage>& stages, CaseOptions& options) {
     check_method(stage, soil, options.flow.has_value());
     soil.stages.push_back(stage.soil);
   }
-  const bool starts_implicit =
-      soil.stages.front().method.value_or(soil.method) == TimeMethod::implicit_steps;
-  if (soil.start_in_equilibrium && starts_implicit)
-    stages.front().section.fail("method", "soil_solver.start_in_equilibrium takes explicit steps",
-                                "Leave it out: implicit steps find equilibrium by themselves.");
+  if (soil.start_in_equilibrium && soil.stages.front().method.value_or(soil.method) != soil.method)
+    stages.front().section.fail(
+        "method", "soil_solver.start_in_equilibrium takes the steps of soil_solver.method",
+        "Write the method of the first stage there, and that of later stages with them.");
 }
 
 std::size_t read_stage_of_soil(Section& soil, const std::vector<Stage>& stages) {

@@ -73,6 +73,8 @@ void read_solids(Section& root, CaseOptions& options);
 void read_loads(Section& root, CaseOptions& options);
 /// [[boundary]]: after [domain] and [[soil]].
 void read_boundaries(Section& root, CaseOptions& options);
+/// What boundaries do not go with, after [soil_solver] and [[solid]].
+void check_boundaries(Section& root, const CaseOptions& options);
 void read_solvers(Section& root, CaseOptions& options, std::optional<double> courant);
 /// Settings of the soil that solver and stages share. `longest` [s]: upper bound of `after`.
 Bounds damping_bounds();

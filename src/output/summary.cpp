@@ -86,6 +86,7 @@ std::string to_json(const Summary& summary) {
   for (const SolidSummary& solid : summary.solids)
     for (const auto& [title, values] : solid.values) json["solids"][solid.name][title] = values;
   if (!summary.stages.empty()) json["stages"] = stages_of(summary.stages);
+  if (!summary.implicit_effort.empty()) json["implicit steps"] = object_of(summary.implicit_effort);
   json["gauges"] = gauges_of(summary.gauges);
   json["peak memory [bytes]"] = summary.peak_memory_bytes;
   // A title may hold bytes that are no UTF-8; they are replaced, not refused.

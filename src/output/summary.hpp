@@ -51,6 +51,7 @@ struct Summary {
   std::vector<std::pair<std::string, double>> soil_statics;         ///< how far from rest, shares
   std::vector<SolidSummary> solids;
   std::vector<StageSummary> stages;
+  std::vector<std::pair<std::string, double>> implicit_effort;  ///< counts of implicit steps
   std::vector<GaugeSummary> gauges;
   double peak_memory_bytes = 0.0;  ///< all ranks together
 };

@@ -3,9 +3,7 @@
 #include "base/errors.hpp"
 
 namespace mudlark {
-namespace {
 
-/// The text of the lowest rank that has one, on every rank; empty when nobody has.
 std::string first_text(MPI_Comm comm, const std::string& text) {
   int rank = 0, size = 1, first = 0;
   MPI_Comm_rank(comm, &rank);
@@ -20,8 +18,6 @@ std::string first_text(MPI_Comm comm, const std::string& text) {
   MPI_Bcast(shared.data(), length, MPI_CHAR, first, comm);
   return shared;
 }
-
-}  // namespace
 
 void throw_divergence_if_any(MPI_Comm comm, const std::string& problem) {
   if (const std::string text = first_text(comm, problem); !text.empty())

@@ -178,7 +178,7 @@ std::vector<double> read_gauge(World<D>& world, const GaugeOptions& gauge) {
     case GaugeQuantity::solid_velocity:
       return read_solid(world, gauge);
     case GaugeQuantity::discharge:
-      return {world.soil()->discharge(gauge.boundary)};
+      return {world.soil()->discharge(gauge.of)};
     default:
       return read_soil(world, gauge);
   }

@@ -47,9 +47,8 @@ struct GaugeOptions {
   std::string name;
   GaugeQuantity quantity = GaugeQuantity::water_level;
   Point3 at{};
-  std::string of;        ///< name of the rigid body
-  std::string boundary;  ///< whose discharge it is
-  double every = 0.0;    ///< [s]; 0: every outer step
+  std::string of;      ///< name of the rigid body, or of the boundary
+  double every = 0.0;  ///< [s]; 0: every outer step
 };
 
 struct CaseOptions {

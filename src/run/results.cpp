@@ -244,6 +244,14 @@ Summary Results<D>::describe(World<D>& world) const {
   if (world.soil() && world.soil()->keeps_energy())
     summary.soil_energy = soil_energy(*world.soil());
   summary.solids = describe_solids(world);
+  if (world.soil() && world.soil()->implicit_effort().newton_iterations > 0) {
+    const auto& implicit = world.soil()->implicit_effort();
+    summary.implicit_effort = {
+        {"steps", static_cast<double>(implicit.steps)},
+        {"repeated", static_cast<double>(implicit.repeated)},
+        {"Newton iterations", static_cast<double>(implicit.newton_iterations)},
+        {"linear iterations", static_cast<double>(implicit.linear_iterations)}};
+  }
   for (const GaugeWriter& gauge : gauges_)
     summary.gauges.push_back({gauge.name(), gauge.columns(), gauge.extremes()});
   summary.peak_memory_bytes = peak_memory(world.grid().comm());

@@ -27,8 +27,9 @@ ExitCode run_in(const CaseOptions& options, const RunSettings& settings) {
   } else if (world.soil()) {
     world.soil()->find_equilibrium();
   }
+  const InterruptGuard guard;
   Results<D> results(world, settings.results, resumed_at);
-  return run_to_end(world, results, settings);
+  return run_to_end(world, results, settings, guard);
 }
 
 /// Microseconds per cell and flow step, and per point and soil step, on one core (docs/validation,

@@ -61,12 +61,13 @@ std::optional<StrengthTrial> run_trial(const CaseOptions& options, double factor
   const double limit =
       settings.largest_displacement.value_or(0.1 * world.grid().smallest_spacing());
   run.largest_displacement = limit;
+  const InterruptGuard guard;
   prepare_folder(run.results, settings.comm);
   Results<D> results(world, run.results, std::nullopt);
   StrengthTrial trial;
   trial.factor = factor;
   try {
-    if (run_to_end(world, results, run) == ExitCode::interrupted) return std::nullopt;
+    if (run_to_end(world, results, run, guard) == ExitCode::interrupted) return std::nullopt;
     const auto statics = world.soil()->statics();
     const bool rests = statics && world.clock().in_last_stage() &&
                        world.soil()->options().stop_when_static &&

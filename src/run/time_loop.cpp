@@ -5,7 +5,6 @@
 #include <array>
 
 #include "base/version.hpp"
-#include "run/interrupt.hpp"
 #include "run/progress.hpp"
 
 namespace mudlark {
@@ -89,8 +88,8 @@ class RunLog {
 }  // namespace
 
 template <int D>
-ExitCode run_to_end(World<D>& world, Results<D>& results, const RunSettings& settings) {
-  const InterruptGuard guard;
+ExitCode run_to_end(World<D>& world, Results<D>& results, const RunSettings& settings,
+                    const InterruptGuard&) {
   Clock& clock = world.clock();
   const bool first = world.grid().rank() == 0;
   Progress progress(first && !settings.quiet, clock.time(), world.options().time.end);
@@ -144,7 +143,7 @@ ExitCode run_to_end(World<D>& world, Results<D>& results, const RunSettings& set
   }
 }
 
-template ExitCode run_to_end(World<2>&, Results<2>&, const RunSettings&);
-template ExitCode run_to_end(World<3>&, Results<3>&, const RunSettings&);
+template ExitCode run_to_end(World<2>&, Results<2>&, const RunSettings&, const InterruptGuard&);
+template ExitCode run_to_end(World<3>&, Results<3>&, const RunSettings&, const InterruptGuard&);
 
 }  // namespace mudlark

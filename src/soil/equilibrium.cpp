@@ -22,6 +22,12 @@ void set_zero(PointQuantity<N>& quantity) {
 template <int D>
 void SoilSolver<D>::find_equilibrium() {
   if (!options_.start_in_equilibrium) return;
+  if (is_implicit()) {
+    sides_.hold_still(true);
+    find_equilibrium_implicitly();
+    sides_.hold_still(false);
+    return start_from_rest();
+  }
   const EquilibriumStart& start = *options_.start_in_equilibrium;
   const double damping = options_.damping;
   const auto water_damping = options_.water_damping;
@@ -50,10 +56,16 @@ void SoilSolver<D>::find_equilibrium() {
   solids_wait_ = false;
   for (Solid& solid : solids_) solid.start(start.reset_displacements);
   sides_.hold_still(false);
+  start_from_rest();
+}
+
+/// Forgets how the points came to rest.
+template <int D>
+void SoilSolver<D>::start_from_rest() {
   for (auto& points : points_) {
     set_zero(points.velocity), set_zero(points.water_velocity);
     set_zero(points.affine), set_zero(points.water_affine);
-    if (start.reset_displacements) points.start = points.position;
+    if (options_.start_in_equilibrium->reset_displacements) points.start = points.position;
   }
   energy_ = recent_energy_ = SoilEnergy{};
   mean_velocity_.fill(0.0);
@@ -62,5 +74,7 @@ void SoilSolver<D>::find_equilibrium() {
 
 template void SoilSolver<2>::find_equilibrium();
 template void SoilSolver<3>::find_equilibrium();
+template void SoilSolver<2>::start_from_rest();
+template void SoilSolver<3>::start_from_rest();
 
 }  // namespace mudlark

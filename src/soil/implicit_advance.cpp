@@ -20,6 +20,8 @@ constexpr double largest_excess = 5.0;
 constexpr int most_cuts = 12;
 /// Strain of a step up to which the flow of water in its start's shape is good enough [-].
 constexpr double largest_strain = 0.02;
+/// Seepage faces are switched so many times in a step.
+constexpr int most_reviews = 20;
 
 }  // namespace
 
@@ -31,15 +33,60 @@ double SoilSolver<D>::outer_step() const {
   return step;
 }
 
+/// What sides and pore water on them do in a step of this length.
+template <int D>
+void SoilSolver<D>::begin_implicit_step(double dt) {
+  step_ = dt;
+  sides_.update(time_, dt);
+  gather_nodes();
+  if (exchanges_halos()) halo_.exchange(as_doubles<NodeSums, D>(sums_), node_sums);
+  side_water_.begin_implicit_step(sides_, halo_, options_.kernel, points_);
+}
+
+/// With the loads of the time `loads_of` [s].
+template <int D>
+ImplicitProblem<D> SoilSolver<D>::implicit_problem(const ImplicitSides<D>& sides, double loads_of,
+                                                   double dt) {
+  return {*grid_, options_, constants_, laws_,  points_, sides, surface_.at(loads_of),
+          time_,  dt,       nullptr,    nullptr};
+}
+
+/// Solves a step, again as often as it takes seepage faces to be on the right side.
+template <int D>
+ImplicitOutcome SoilSolver<D>::solve_implicitly(ImplicitProblem<D>& problem) {
+  const double dt = problem.dt;
+  int reviews = 0;
+  problem.accepts = [&](const ImplicitFields<D>& state) {
+    if (reviews++ < most_reviews && !side_water_.review(sides_, halo_, state.water, state.pressure))
+      return false;
+    side_water_.end_implicit_step(sides_, state.pressure);
+    side_water_.account(
+        sides_, dt, [&](int axis, const Index<D>& face) { return state.water[axis][face] / dt; },
+        [&](int axis, const Index<D>& face) {
+          return sums_[static_cast<std::size_t>(axis)][face].volume;
+        });
+    return true;
+  };
+  ImplicitOutcome outcome;
+  do {
+    outcome = solve_implicit_step(problem);
+    implicit_effort_.newton_iterations += outcome.iterations;
+    implicit_effort_.linear_iterations += outcome.linear_iterations;
+  } while (outcome.converged && !outcome.accepted);
+  return outcome;
+}
+
 /// Solves a step; in two halves when it does not converge or is not accurate enough.
 template <int D>
 void SoilSolver<D>::advance_implicitly(double dt, int cuts) {
   redistribute();
   surface_.resample(active_);
   std::vector<SoilParticles<D>> before = points_;
-  const ImplicitProblem<D> problem{
-      *grid_, options_, constants_, laws_, points_, surface_.at(time_ + dt), time_, dt};
-  const ImplicitOutcome outcome = solve_implicit_step(problem);
+  const auto side_water = side_water_.state();
+  begin_implicit_step(dt);
+  const ImplicitSides<D> sides(sides_, side_water_, sums_, dt);
+  ImplicitProblem<D> problem = implicit_problem(sides, time_ + dt, dt);
+  const ImplicitOutcome outcome = solve_implicitly(problem);
   const double tolerance =
       options_.step_tolerance * std::max(outcome.largest_way, 1e-9 * grid_->smallest_spacing());
   // Backward Euler: half the change of velocity times the step.
@@ -49,11 +96,14 @@ void SoilSolver<D>::advance_implicitly(double dt, int cuts) {
     if (cuts == most_cuts)
       throw DivergenceError(fmt::format("soil: implicit step of {:.3g} s at t = {:.6g} s: {}", dt,
                                         time_, outcome.problem));
+    ++implicit_effort_.repeated;
     points_ = std::move(before);
+    side_water_.restore(side_water, sides_, halo_);
     advance_implicitly(0.5 * dt, cuts + 1);
     advance_implicitly(0.5 * dt, cuts + 1);
     return;
   }
+  ++implicit_effort_.steps;
   time_ += dt;
   double factor = std::clamp(0.9 * std::sqrt(tolerance / std::max(error, 1e-300)), 0.3, 2.0);
   factor = std::min(factor, largest_strain / std::max(outcome.largest_strain, 1e-300));
@@ -61,6 +111,14 @@ void SoilSolver<D>::advance_implicitly(double dt, int cuts) {
   next_step_ = factor >= 1.0 ? std::max(next_step_, factor * dt) : factor * dt;
 }
 
+template void SoilSolver<2>::begin_implicit_step(double);
+template void SoilSolver<3>::begin_implicit_step(double);
+template ImplicitProblem<2> SoilSolver<2>::implicit_problem(const ImplicitSides<2>&, double,
+                                                            double);
+template ImplicitProblem<3> SoilSolver<3>::implicit_problem(const ImplicitSides<3>&, double,
+                                                            double);
+template ImplicitOutcome SoilSolver<2>::solve_implicitly(ImplicitProblem<2>&);
+template ImplicitOutcome SoilSolver<3>::solve_implicitly(ImplicitProblem<3>&);
 template double SoilSolver<2>::outer_step() const;
 template double SoilSolver<3>::outer_step() const;
 template void SoilSolver<2>::advance_implicitly(double, int);

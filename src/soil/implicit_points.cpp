@@ -1,10 +1,13 @@
 #include "soil/implicit_points.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
-#include "soil/point_stencil.hpp"
+#include "soil/implicit_nodes.hpp"
+#include "soil/point_report.hpp"
 #include "soil/splitting.hpp"
 
 namespace mudlark {
@@ -12,44 +15,8 @@ namespace {
 
 /// Step of the displacement gradient by which tangents are differenced [-].
 constexpr double difference = 1e-7;
-
-/// The nodes around a point: faces of all components, then cells.
-template <int D>
-struct Nodes {
-  struct Face {
-    int component;
-    std::ptrdiff_t at;
-    double weight;
-    Vec<D> slope;
-  };
-  struct Cell {
-    std::ptrdiff_t at;
-    double weight;
-  };
-  std::vector<Face> faces;
-  std::vector<Cell> cells;
-
-  template <class K>
-  void find(const Grid<D>& grid, const Vec<D>& per_spacing, const PointSplines<D, K>& splines) {
-    faces.clear();
-    cells.clear();
-    PointSplines<D, K>::template static_for<D>([&]<int Component>() {
-      splines.template for_each_node<Component>(
-          grid, per_spacing, [&](std::ptrdiff_t at, double w, const Vec<D>& slope, const Vec<D>&) {
-            faces.push_back({Component, at, w, slope});
-          });
-    });
-    splines.template for_each_node<-1>(
-        grid, per_spacing, [&](std::ptrdiff_t at, double w, const Vec<D>&, const Vec<D>&) {
-          cells.push_back({at, w});
-        });
-  }
-  bool same_places(const Nodes& other) const {
-    return !faces.empty() && faces.size() == other.faces.size() &&
-           faces.front().at == other.faces.front().at && faces.back().at == other.faces.back().at &&
-           cells.front().at == other.cells.front().at;
-  }
-};
+/// A trial that leaves a point less than this share of its volume is none [-].
+constexpr double smallest_volume = 0.05;
 
 }  // namespace
 
@@ -127,21 +94,30 @@ bool ImplicitPoints<D>::update_stress(std::size_t b, const std::vector<double>& 
   Body& body = bodies_[b];
   const auto& start = problem_->bodies[b];
   body.trial = start;
-  bool good = true;
+  const std::string& name = problem_->options.bodies[b].name;
   for (std::size_t p = 0; p < start.size(); ++p) {
     const Gradient f = Gradient::Identity() + Eigen::Map<const Gradient>(&gradient[p * G]);
     const double j = f.determinant();
-    good = good && j > 0.05;
-    body.trial.volume[p] = start.volume[p] * std::max(j, 0.05);
+    if (!(j > smallest_volume)) {
+      failure_ =
+          fmt::format("soil {}: the point at {} would be pressed to {:.3g} of its volume ({})",
+                      name, place_of(start, p), j, state_of(start, p));
+      return false;
+    }
+    body.trial.volume[p] = start.volume[p] * j;
   }
-  if (!good) return false;
   std::vector<double> by_component(gradient.size());
   for (std::size_t p = 0; p < start.size(); ++p)
     for (std::size_t c = 0; c < G; ++c) by_component[c * start.size() + p] = gradient[p * G + c];
   const StressResult result = mudlark::update_stress(
       body.trial, by_component, *problem_->laws[b], problem_->options.bodies[b].strain,
       {problem_->dt, problem_->time, problem_->grid.smallest_spacing()});
-  if (result.failed > 0) return false;
+  if (result.failed > 0) {
+    failure_ = fmt::format("soil {}: law {} could not be integrated at {} ({})", name,
+                           problem_->laws[b]->name(), place_of(start, result.first_failed),
+                           state_of(start, result.first_failed));
+    return false;
+  }
   if (start.carries_extent) follow_extent(by_component, PointRange{0, start.size()}, body.trial);
   stress.resize(start.size());
   if (cofactor) cofactor->resize(start.size());
@@ -159,33 +135,56 @@ bool ImplicitPoints<D>::update_stress(std::size_t b, const std::vector<double>& 
   return true;
 }
 
+/// Tangents of a body's points by central differences of the whole stress update.
+template <int D>
+bool ImplicitPoints<D>::difference_stress(std::size_t b, LinearPoint<D>* linear) {
+  Body& body = bodies_[b];
+  std::vector<double> gradient = body.gradient;
+  std::vector<Gradient> ahead, behind;
+  for (int c = 0; c < G; ++c) {
+    const auto nudge = [&](double by) {
+      for (std::size_t at = static_cast<std::size_t>(c); at < gradient.size(); at += G)
+        gradient[at] = body.gradient[at] + by;
+    };
+    nudge(difference);
+    bool good = update_stress(b, gradient, ahead, nullptr);
+    nudge(-difference);
+    good = update_stress(b, gradient, behind, nullptr) && good;
+    nudge(0.0);
+    if (!good) return false;
+    for (std::size_t p = 0; p < ahead.size(); ++p)
+      for (int r = 0; r < G; ++r)
+        linear[p].tangent(r, c) = (ahead[p].data()[r] - behind[p].data()[r]) / (2.0 * difference);
+  }
+  return true;
+}
+
 template <int D>
 bool ImplicitPoints<D>::evaluate(const ImplicitFields<D>& state, bool tangents) {
   bool good = true;
+  failure_.clear();
+  std::size_t first = 0;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     Body& body = bodies_[b];
+    const std::size_t count = problem_->bodies[b].size();
     with_kernel(problem_->options.kernel, [&]<class K>(K) { interpolate<K>(b, state); });
     if (tangents) {
-      std::vector<double> gradient = body.gradient;
-      std::vector<Gradient> ahead, behind;
-      body.tangent.resize(problem_->bodies[b].size());
-      for (int c = 0; c < G; ++c) {
-        const auto nudge = [&](double by) {
-          for (std::size_t at = static_cast<std::size_t>(c); at < gradient.size(); at += G)
-            gradient[at] = body.gradient[at] + by;
-        };
-        nudge(difference);
-        good = update_stress(b, gradient, ahead, nullptr) && good;
-        nudge(-difference);
-        good = update_stress(b, gradient, behind, nullptr) && good;
-        nudge(0.0);
-        if (!good) break;
-        for (std::size_t p = 0; p < body.tangent.size(); ++p)
-          for (int r = 0; r < G; ++r)
-            body.tangent[p](r, c) = (ahead[p].data()[r] - behind[p].data()[r]) / (2.0 * difference);
-      }
+      linear_.resize(std::max(linear_.size(), first + count));
+      good = difference_stress(b, &linear_[first]) && good;
     }
     good = update_stress(b, body.gradient, body.stress, &body.cofactor) && good;
+    if (tangents && good)
+      for (std::size_t p = 0; p < count; ++p) {
+        LinearPoint<D>& point = linear_[first + p];
+        const Share s = share(b, p);
+        point.position = problem_->bodies[b].position_of(p);
+        point.volume = s.volume;
+        point.storage = s.wet ? s.porosity / problem_->options.water_bulk_modulus : 0.0;
+        point.drag = s.drag;
+        point.wet = s.wet;
+        point.cofactor = body.cofactor[p];
+      }
+    first += count;
   }
   return good;
 }
@@ -199,7 +198,7 @@ void ImplicitPoints<D>::scatter(std::size_t b, const ImplicitFields<D>& state,
   const Body& body = bodies_[b];
   const Vec<D> per_spacing = inverse(grid.spacing());
   const double bulk = problem_->options.water_bulk_modulus, dt = problem_->dt;
-  Nodes<D> nodes;
+  ImplicitNodes<D> nodes;
   for (std::size_t p = 0; p < points.size(); ++p) {
     nodes.find(grid, per_spacing,
                PointSplines<D, K>(in_cells(grid, per_spacing, points.position_of(p))));
@@ -243,103 +242,6 @@ void ImplicitPoints<D>::add_residual(const ImplicitFields<D>& state,
     with_kernel(problem_->options.kernel, [&]<class K>(K) { scatter<K>(b, state, sums); });
 }
 
-/// Dense blocks of points that share their nodes, added to the matrix at once.
-template <int D>
-template <class K>
-void ImplicitPoints<D>::assemble(std::size_t b, const ImplicitUnknowns<D>& unknowns, ::Mat matrix,
-                                 bool pattern) const {
-  const Grid<D>& grid = problem_->grid;
-  const auto& points = problem_->bodies[b];
-  const Body& body = bodies_[b];
-  const Vec<D> per_spacing = inverse(grid.spacing());
-  const double bulk = problem_->options.water_bulk_modulus, dt = problem_->dt;
-  Nodes<D> nodes, group;
-  Eigen::MatrixXd block;
-  Eigen::VectorXd signs;
-  std::vector<PetscInt> numbers;
-  const auto flush = [&] {
-    if (group.faces.empty()) return;
-    for (Eigen::Index c = 0; c < block.cols(); ++c)  // column-major and sign of mirrored places
-      block.col(c) = (block.col(c).array() * signs.array() * signs[c]).matrix();
-    const Eigen::MatrixXd rows = block.transpose();  // PETSc reads rows
-    const auto n = static_cast<PetscInt>(numbers.size());
-    MatSetValues(matrix, n, numbers.data(), n, numbers.data(), rows.data(), ADD_VALUES);
-  };
-  const auto open = [&] {
-    group = nodes;
-    const std::size_t faces = nodes.faces.size(), cells = nodes.cells.size();
-    numbers.resize(2 * faces + cells);
-    signs = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(numbers.size()));
-    for (std::size_t i = 0; i < faces; ++i) {
-      const auto u = static_cast<std::size_t>(nodes.faces[i].component);
-      const auto at = static_cast<std::size_t>(nodes.faces[i].at);
-      numbers[i] = unknowns.grains[u][at];
-      numbers[faces + i] = unknowns.water[u][at];
-      signs[static_cast<Eigen::Index>(i)] = signs[static_cast<Eigen::Index>(faces + i)] =
-          unknowns.sign[u][at];
-    }
-    for (std::size_t i = 0; i < cells; ++i)
-      numbers[2 * faces + i] = unknowns.pressure[static_cast<std::size_t>(nodes.cells[i].at)];
-    block = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(numbers.size()),
-                                  static_cast<Eigen::Index>(numbers.size()));
-  };
-  for (std::size_t p = 0; p < points.size(); ++p) {
-    nodes.find(grid, per_spacing,
-               PointSplines<D, K>(in_cells(grid, per_spacing, points.position_of(p))));
-    if (!nodes.same_places(group)) {
-      flush();
-      open();
-    }
-    if (pattern) continue;
-    const Share s = share(b, p);
-    const auto faces = static_cast<Eigen::Index>(nodes.faces.size());
-    const auto cells = static_cast<Eigen::Index>(nodes.cells.size());
-    // Columns: gradient of the displacement of each face's component.
-    Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(G, faces);
-    Eigen::VectorXd volume_change(faces), divergence(faces), cell_weight(cells);
-    const Gradient& c = body.cofactor[p];
-    for (Eigen::Index i = 0; i < faces; ++i) {
-      const auto& face = nodes.faces[static_cast<std::size_t>(i)];
-      double change = 0.0;
-      for (int j = 0; j < D; ++j) {
-        slopes(face.component * D + j, i) = face.slope[j];
-        change += c(face.component, j) * face.slope[j];
-      }
-      volume_change[i] = change;
-      divergence[i] = face.slope[face.component];
-    }
-    for (Eigen::Index i = 0; i < cells; ++i)
-      cell_weight[i] = nodes.cells[static_cast<std::size_t>(i)].weight;
-    block.topLeftCorner(faces, faces).noalias() +=
-        s.volume * (slopes.transpose() * (body.tangent[p] * slopes));
-    if (!s.wet) continue;
-    block.block(0, 2 * faces, faces, cells) -= s.volume * volume_change * cell_weight.transpose();
-    for (Eigen::Index i = 0; i < faces; ++i)
-      block(faces + i, faces + i) +=
-          s.volume * nodes.faces[static_cast<std::size_t>(i)].weight * s.drag / dt;
-    block.block(faces, 2 * faces, faces, cells) -= s.volume * divergence * cell_weight.transpose();
-    const double scale = water_scale_ * s.volume;
-    block.block(2 * faces, 0, cells, faces) += scale * cell_weight * volume_change.transpose();
-    block.block(2 * faces, faces, cells, faces) += scale * cell_weight * divergence.transpose();
-    block.bottomRightCorner(cells, cells) +=
-        scale * s.porosity / bulk * cell_weight * cell_weight.transpose();
-  }
-  flush();
-}
-
-template <int D>
-void ImplicitPoints<D>::add_jacobian(const ImplicitUnknowns<D>& unknowns, ::Mat matrix) const {
-  for (std::size_t b = 0; b < bodies_.size(); ++b)
-    with_kernel(problem_->options.kernel,
-                [&]<class K>(K) { assemble<K>(b, unknowns, matrix, false); });
-}
-template <int D>
-void ImplicitPoints<D>::add_pattern(const ImplicitUnknowns<D>& unknowns, ::Mat matrix) const {
-  for (std::size_t b = 0; b < bodies_.size(); ++b)
-    with_kernel(problem_->options.kernel,
-                [&]<class K>(K) { assemble<K>(b, unknowns, matrix, true); });
-}
-
 template <int D>
 double ImplicitPoints<D>::smallest_residual() const {
   double force = 0.0;
@@ -366,7 +268,7 @@ void ImplicitPoints<D>::finish(const ImplicitFields<D>& state, ImplicitOutcome& 
     for (const double g : body.gradient)
       outcome.largest_strain = std::max(outcome.largest_strain, std::abs(g));
     with_kernel(problem_->options.kernel, [&]<class K>(K) {
-      Nodes<D> nodes;
+      ImplicitNodes<D> nodes;
       for (std::size_t p = 0; p < body.trial.size(); ++p) {
         nodes.find(grid, per_spacing,
                    PointSplines<D, K>(in_cells(grid, per_spacing, body.trial.position_of(p))));

@@ -1,10 +1,9 @@
 #pragma once
 /// The points' part of an implicit step: stresses at trial displacements, residual and tangent.
-#include <petscmat.h>
-
 #include <Eigen/Core>
 
 #include "soil/implicit_step.hpp"
+#include "soil/implicit_tangent.hpp"
 #include "soil/kinematics.hpp"
 
 namespace mudlark {
@@ -20,8 +19,12 @@ class ImplicitPoints {
   /// Unbalanced forces on grains and water [N] and volume of water that came in, times a stiffness
   /// per length [N], of the last evaluation.
   void add_residual(const ImplicitFields<D>& state, ImplicitFields<D>& sums) const;
-  void add_jacobian(const ImplicitUnknowns<D>& unknowns, ::Mat matrix) const;
-  void add_pattern(const ImplicitUnknowns<D>& unknowns, ::Mat matrix) const;
+  /// The points of all bodies, linearised about the last evaluation with tangents.
+  const std::vector<LinearPoint<D>>& linear() const { return linear_; }
+  /// What the balance of water is multiplied by [Pa/m].
+  double water_scale() const { return water_scale_; }
+  /// The point of this rank that the last evaluation failed at, in words; empty if it did not.
+  const std::string& failure() const { return failure_; }
   /// Forces below this are round-off [N].
   double smallest_residual() const;
   /// Takes the last evaluation over into the points.
@@ -29,8 +32,7 @@ class ImplicitPoints {
 
  private:
   static constexpr int G = D * D;
-  using Gradient = Eigen::Matrix<double, D, D, Eigen::RowMajor>;
-  using Tangent = Eigen::Matrix<double, G, G, Eigen::RowMajor>;
+  using Gradient = typename LinearPoint<D>::Gradient;
 
   /// One body's points.
   struct Body {
@@ -41,7 +43,6 @@ class ImplicitPoints {
     SoilParticles<D> trial;                         ///< with the stress at the end
     std::vector<Gradient> stress;    ///< first Piola-Kirchhoff, total plus surface pressure [Pa]
     std::vector<Gradient> cofactor;  ///< J F^-T [-]
-    std::vector<Tangent> tangent;    ///< d stress / d gradient [Pa]
   };
   /// What one point knows of its own share of the problem.
   struct Share {
@@ -54,15 +55,15 @@ class ImplicitPoints {
   void sample_loads(std::size_t b);
   template <class K>
   void scatter(std::size_t b, const ImplicitFields<D>& state, ImplicitFields<D>& sums) const;
-  template <class K>
-  void assemble(std::size_t b, const ImplicitUnknowns<D>& unknowns, ::Mat matrix,
-                bool pattern) const;
+  bool difference_stress(std::size_t b, LinearPoint<D>* linear);
   bool update_stress(std::size_t b, const std::vector<double>& gradient,
                      std::vector<Gradient>& stress, std::vector<Gradient>* cofactor);
   Share share(std::size_t b, std::size_t p) const;
 
   const ImplicitProblem<D>* problem_;
   std::vector<Body> bodies_;
+  std::vector<LinearPoint<D>> linear_;
+  std::string failure_;
   double water_scale_ = 1.0;  ///< [Pa/m], makes volumes of water forces
 };
 

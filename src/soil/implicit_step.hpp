@@ -1,5 +1,6 @@
 #pragma once
 /// One quasi-static step of soil and pore water, of any length.
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -18,14 +19,21 @@ struct ImplicitProblem {
   const std::vector<BodyConstants>& constants;
   const std::vector<std::unique_ptr<SoilModel>>& laws;
   std::vector<SoilParticles<D>>& bodies;  ///< state at the start; at the end after `solve`
-  SurfacePressure<D> surface;             ///< at the end of the step
-  double time = 0.0, dt = 0.0;            ///< start and length [s]
+  const ImplicitSides<D>& sides;
+  SurfacePressure<D> surface;   ///< at the end of the step
+  double time = 0.0, dt = 0.0;  ///< start and length [s]
+  /// Asked with the solution; when it says no, the points stay as they are.
+  std::function<bool(const ImplicitFields<D>&)> accepts;
+  /// Forces on the grains that are held back yet, on owned faces [N]; null: none.
+  const FaceVector<D>* held_back = nullptr;
 };
 
 struct ImplicitOutcome {
   bool converged = false;
+  bool accepted = false;
   std::string problem;          ///< why not
   int iterations = 0;           ///< of Newton's method
+  int linear_iterations = 0;    ///< of the linear solver, all of Newton's together
   double largest_step = 0.0;    ///< way of a point [m]
   double largest_way = 0.0;     ///< of a point since its start [m]
   double largest_change = 0.0;  ///< of a point's velocity against the last step [m/s]
@@ -36,12 +44,20 @@ struct ImplicitOutcome {
 /// and the pore water flows by Darcy's law (docs/methods/soil.md, implicit steps). Unknowns are the
 /// displacements of grains and of water through faces and the rise of pore pressure in cells, with
 /// the points' own splines: composite ones make the divergence of the former exactly a sum of the
-/// latter, so nothing locks. Newton's method (PETSc's SNES, tangents of the laws by differences)
-/// with a direct solver (MUMPS). On failure the points are as they were. Collective.
+/// latter, so nothing locks. Newton's method (PETSc's SNES with line search, tangents of the laws
+/// by differences); linear systems by a direct solver (MUMPS) or by Krylov iterations
+/// (ImplicitKrylov). On failure the points are as they were, and `problem` names the place.
+/// Collective.
 template <int D>
 ImplicitOutcome solve_implicit_step(const ImplicitProblem<D>& problem);
 
+/// What is out of balance on the grains at the start of the step [N], on owned faces. Collective.
+template <int D>
+void unbalanced_forces(const ImplicitProblem<D>& problem, FaceVector<D>& forces);
+
 extern template ImplicitOutcome solve_implicit_step(const ImplicitProblem<2>&);
 extern template ImplicitOutcome solve_implicit_step(const ImplicitProblem<3>&);
+extern template void unbalanced_forces(const ImplicitProblem<2>&, FaceVector<2>&);
+extern template void unbalanced_forces(const ImplicitProblem<3>&, FaceVector<3>&);
 
 }  // namespace mudlark

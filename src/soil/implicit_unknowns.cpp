@@ -1,33 +1,23 @@
 #include "soil/implicit_unknowns.hpp"
 
-#include "soil/mirror.hpp"
 #include "soil/point_stencil.hpp"
 
 namespace mudlark {
 namespace {
 
-/// Faces and cells with less than this share of a cell's volume in their reach are held: they touch
-/// the outermost points only.
-constexpr double smallest_share = 1e-4;
+/// Faces with less than this share of a cell's volume in their reach are held: they touch the
+/// outermost points only. Cells need more: a pore pressure that hardly any point feels is not
+/// determined by the balance of water, and the system is singular but for round-off.
+constexpr double smallest_face_share = 1e-4, smallest_cell_share = 0.02;
 
+/// Adds what lies behind closed sides to the places before them.
 template <int D>
-void fold_faces(const Grid<D>& grid, int component, bool signs, FaceField<D>& field) {
-  for_each_closed_wall(grid, [&](int axis, int side, Wall wall) {
-    const double sign = signs ? parity(component, axis, wall) : 1.0;
-    for_each_mirror_pair(grid, grid.local(), axis, side, component == axis,
-                         [&](const Index<D>& behind, const Index<D>& before) {
-                           field[before] += sign * field[behind];
-                         });
-  });
-}
-
-template <int D>
-void fold_pressure(const Grid<D>& grid, CellField<D>& field) {
-  for_each_closed_wall(grid, [&](int axis, int side, Wall) {
-    for_each_mirror_pair(
-        grid, grid.local(), axis, side, false,
-        [&](const Index<D>& behind, const Index<D>& before) { field[before] += field[behind]; });
-  });
+void fold_volumes(const SoilSides<D>& sides, int component, FaceField<D>& field) {
+  for (int axis = 0; axis < D; ++axis)
+    for_each_image(sides, sides.grid().local(), axis, component,
+                   [&](const SideNode&, const Index<D>& behind, const Index<D>& before) {
+                     field[before] += field[behind];
+                   });
 }
 
 /// Adds the volume of points to faces and cells around them.
@@ -74,15 +64,47 @@ std::vector<PetscInt> as_numbers(const double* values, std::size_t count) {
   return numbers;
 }
 
-/// The closed walls' own faces do not move.
+/// Faces on sides are not unknowns: grains are held, and water unless the side has a pressure.
 template <int D>
-void hold_walls(const Grid<D>& grid, int component, FaceField<D>& volume) {
-  for (int side = 0; side < 2; ++side) {
-    if (!grid.touches(component, side) || !closed(grid.wall(component, side))) continue;
-    IndexBox<D> face = grid.local();
-    face.lower[component] = side == 0 ? 0 : grid.cells()[component];
-    face.upper[component] = face.lower[component] + 1;
-    for_each(face, [&](const Index<D>& index) { volume[index] = 0.0; });
+void hold_sides(const SoilSides<D>& sides, int component, bool water, FaceField<D>& volume) {
+  for_each_face_on_sides(sides, sides.grid().local(), component,
+                         [&](int, const SideNode& node, const Index<D>& face) {
+                           if (!water || node.water != WaterSide::pressure) volume[face] = 0.0;
+                         });
+}
+
+/// Numbers and signs of the places behind sides.
+template <int D>
+void number_images(const SoilSides<D>& sides, ImplicitFields<D>& numbers,
+                   ImplicitUnknowns<D>& unknowns) {
+  const Grid<D>& grid = sides.grid();
+  for (std::size_t d = 0; d < D; ++d) {
+    unknowns.grain_sign[d].assign(grid.local_size(), 1.0);
+    unknowns.water_sign[d].assign(grid.local_size(), 1.0);
+  }
+  unknowns.pressure_sign.assign(grid.local_size(), 1.0);
+  for (int axis = 0; axis < D; ++axis) {
+    for (int d = 0; d < D; ++d) {
+      auto& grain_sign = unknowns.grain_sign[static_cast<std::size_t>(d)];
+      auto& water_sign = unknowns.water_sign[static_cast<std::size_t>(d)];
+      for_each_image(sides, grid.local(), axis, d,
+                     [&](const SideNode& node, const Index<D>& behind, const Index<D>& before) {
+                       const auto to = static_cast<std::size_t>(grid.offset(behind)),
+                                  from = static_cast<std::size_t>(grid.offset(before));
+                       numbers.grains[d].data()[to] = numbers.grains[d].data()[from];
+                       numbers.water[d].data()[to] = numbers.water[d].data()[from];
+                       grain_sign[to] = node.grain_sign * grain_sign[from];
+                       water_sign[to] = node.flux_sign * water_sign[from];
+                     });
+    }
+    for_each_image_of_cells(
+        sides, grid.local(), axis,
+        [&](int, const SideNode& node, const Index<D>& behind, const Index<D>& before) {
+          const auto to = static_cast<std::size_t>(grid.offset(behind)),
+                     from = static_cast<std::size_t>(grid.offset(before));
+          numbers.pressure.data()[to] = numbers.pressure.data()[from];
+          unknowns.pressure_sign[to] = pressure_sign(node) * unknowns.pressure_sign[from];
+        });
   }
 }
 
@@ -102,8 +124,9 @@ void ImplicitFields<D>::clear() {
 }
 
 template <int D>
-void ImplicitFields<D>::load(const Grid<D>& grid, Halo<D>& halo,
+void ImplicitFields<D>::load(const ImplicitSides<D>& sides, Halo<D>& halo,
                              const ImplicitUnknowns<D>& unknowns, ::Vec values) {
+  const Grid<D>& grid = sides.sides().grid();
   const PetscScalar* x = nullptr;
   VecGetArrayRead(values, &x);
   const auto value = [&](PetscInt number) { return number < 0 ? 0.0 : x[number - unknowns.first]; };
@@ -124,34 +147,18 @@ void ImplicitFields<D>::load(const Grid<D>& grid, Halo<D>& halo,
   halo.exchange(grains);
   halo.exchange(water);
   halo.exchange(pressure);
-  for_each_closed_wall(grid, [&](int axis, int side, Wall wall) {
-    for (int d = 0; d < D; ++d) {
-      const double sign = parity(d, axis, wall);
-      for_each_mirror_pair(grid, grid.local(), axis, side, d == axis,
-                           [&](const Index<D>& behind, const Index<D>& before) {
-                             grains[d][behind] = sign * grains[d][before];
-                             water[d][behind] = sign * water[d][before];
-                           });
-    }
-    for_each_mirror_pair(grid, grid.local(), axis, side, false,
-                         [&](const Index<D>& behind, const Index<D>& before) {
-                           pressure[behind] = pressure[before];
-                         });
-  });
+  sides.complete(grains, water, pressure);
 }
 
 template <int D>
-void ImplicitFields<D>::store(const Grid<D>& grid, Halo<D>& halo,
+void ImplicitFields<D>::store(const ImplicitSides<D>& sides, Halo<D>& halo,
                               const ImplicitUnknowns<D>& unknowns, ::Vec values) {
+  const Grid<D>& grid = sides.sides().grid();
   std::vector<double*> all;
   for (int d = 0; d < D; ++d) all.push_back(grains[d].data()), all.push_back(water[d].data());
   all.push_back(pressure.data());
   halo.add_to_owners(all);
-  for (int d = 0; d < D; ++d) {
-    fold_faces(grid, d, true, grains[d]);
-    fold_faces(grid, d, true, water[d]);
-  }
-  fold_pressure(grid, pressure);
+  sides.fold(grains, water, pressure);
   PetscScalar* x = nullptr;
   VecGetArray(values, &x);
   const auto put = [&](PetscInt number, double value) {
@@ -173,9 +180,10 @@ void ImplicitFields<D>::store(const Grid<D>& grid, Halo<D>& halo,
 }
 
 template <int D>
-ImplicitUnknowns<D> number_unknowns(const Grid<D>& grid, Kernel kernel,
+ImplicitUnknowns<D> number_unknowns(const SoilSides<D>& sides, Kernel kernel,
                                     const std::vector<SoilParticles<D>>& bodies,
                                     const std::vector<bool>& wet) {
+  const Grid<D>& grid = sides.grid();
   Halo<D> halo(grid);
   ImplicitFields<D> sums(grid);
   for (std::size_t b = 0; b < bodies.size(); ++b)
@@ -186,42 +194,25 @@ ImplicitUnknowns<D> number_unknowns(const Grid<D>& grid, Kernel kernel,
   all.push_back(sums.pressure.data());
   halo.add_to_owners(all);
   ImplicitUnknowns<D> unknowns;
-  const double threshold = smallest_share * grid.cell_volume();
   PetscInt next = 0;
   for (int d = 0; d < D; ++d)
     for (FaceField<D>* field : {&sums.grains[d], &sums.water[d]}) {
-      fold_faces(grid, d, false, *field);
-      hold_walls(grid, d, *field);
-      number_owned(*field, grid.owned_faces(d), threshold, next);
+      fold_volumes(sides, d, *field);
+      hold_sides(sides, d, field == &sums.water[d], *field);
+      number_owned(*field, grid.owned_faces(d), smallest_face_share * grid.cell_volume(), next);
     }
-  fold_pressure(grid, sums.pressure);
-  number_owned(sums.pressure, grid.owned(), threshold, next);
+  fold_cells(sides, grid.local(), sums.pressure);
+  number_owned(sums.pressure, grid.owned(), smallest_cell_share * grid.cell_volume(), next);
   unknowns.owned = next;
   MPI_Exscan(&next, &unknowns.first, 1, MPIU_INT, MPI_SUM, grid.comm());
   if (grid.rank() == 0) unknowns.first = 0;
+  MPI_Allreduce(&next, &unknowns.total, 1, MPIU_INT, MPI_SUM, grid.comm());
   for (double* values : all)
     for (std::size_t i = 0; i < grid.local_size(); ++i)
       if (values[i] >= 0.0) values[i] += static_cast<double>(unknowns.first);
   // Ghosts take -1 where their owner has none: exchange overwrites them all.
   halo.exchange(all);
-  for (int d = 0; d < D; ++d)
-    unknowns.sign[static_cast<std::size_t>(d)].assign(grid.local_size(), 1.0);
-  for_each_closed_wall(grid, [&](int axis, int side, Wall wall) {
-    for (int d = 0; d < D; ++d) {
-      auto& sign = unknowns.sign[static_cast<std::size_t>(d)];
-      for_each_mirror_pair(grid, grid.local(), axis, side, d == axis,
-                           [&](const Index<D>& behind, const Index<D>& before) {
-                             sums.grains[d][behind] = sums.grains[d][before];
-                             sums.water[d][behind] = sums.water[d][before];
-                             sign[sums.grains[d].offset(behind)] =
-                                 parity(d, axis, wall) * sign[sums.grains[d].offset(before)];
-                           });
-    }
-    for_each_mirror_pair(grid, grid.local(), axis, side, false,
-                         [&](const Index<D>& behind, const Index<D>& before) {
-                           sums.pressure[behind] = sums.pressure[before];
-                         });
-  });
+  number_images(sides, sums, unknowns);
   for (int d = 0; d < D; ++d) {
     const auto u = static_cast<std::size_t>(d);
     unknowns.grains[u] = as_numbers(sums.grains[d].data(), grid.local_size());
@@ -233,10 +224,10 @@ ImplicitUnknowns<D> number_unknowns(const Grid<D>& grid, Kernel kernel,
 
 template struct ImplicitFields<2>;
 template struct ImplicitFields<3>;
-template ImplicitUnknowns<2> number_unknowns(const Grid<2>&, Kernel,
+template ImplicitUnknowns<2> number_unknowns(const SoilSides<2>&, Kernel,
                                              const std::vector<SoilParticles<2>>&,
                                              const std::vector<bool>&);
-template ImplicitUnknowns<3> number_unknowns(const Grid<3>&, Kernel,
+template ImplicitUnknowns<3> number_unknowns(const SoilSides<3>&, Kernel,
                                              const std::vector<SoilParticles<3>>&,
                                              const std::vector<bool>&);
 

@@ -41,7 +41,8 @@ void for_each_closed_wall(const Grid<D>& grid, F&& f) {
         f(axis, side, grid.wall(axis, side));
 }
 
-/// Sign of a vector component behind a wall.
+/// Sign of a vector component of the grains behind a wall. Pore water seeps along any wall: it
+/// takes that of Wall::slip.
 inline double parity(int component, int axis, Wall wall) {
   return component == axis || wall == Wall::no_slip ? -1.0 : 1.0;
 }

@@ -34,4 +34,13 @@ inline constexpr std::size_t node_motions = 5;
 template <class T, int D>
 using NodeField = std::array<Field<T, AtFace, D>, static_cast<std::size_t>(D)>;
 
+/// The components one behind the other, as halos take them.
+template <class T, int D>
+std::array<double*, D> as_doubles(NodeField<T, D>& nodes) {
+  static_assert(sizeof(T) % sizeof(double) == 0);
+  std::array<double*, D> all{};
+  for (std::size_t a = 0; a < all.size(); ++a) all[a] = reinterpret_cast<double*>(nodes[a].data());
+  return all;
+}
+
 }  // namespace mudlark

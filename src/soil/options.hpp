@@ -1,5 +1,6 @@
 #pragma once
 /// What the case file says about the soil, as plain data (SI units).
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <variant>
@@ -81,11 +82,16 @@ struct SoilStage {
   bool reset_displacements = false;                 ///< at the start
 };
 
+/// How implicit steps solve their linear systems; automatic: what is faster for their size.
+enum class LinearSolver { automatic, direct, iterative };
+
 /// Search for the state of rest from which a case starts.
 struct EquilibriumStart {
   RestCriterion rest;
   double damping = 0.7;  ///< of grains and pore water while it is sought [-]
-  double longest = 0.0;  ///< simulated time after which there is none [s]
+  /// Simulated time after which there is none [s]; of implicit steps how long pore water drains
+  /// meanwhile, 0: until nothing is left to drain.
+  double longest = 0.0;
   bool reset_displacements = true;
 };
 
@@ -126,11 +132,21 @@ struct SoilOptions {
   TimeMethod method = TimeMethod::explicit_steps;
   /// Error of an implicit step as a share of the largest displacement so far [-].
   double step_tolerance = 3e-4;
+  LinearSolver linear_solver = LinearSolver::automatic;  ///< of implicit steps
   LoadForm load_form = LoadForm::virtual_stress;
   std::vector<SoilStage> stages{};        ///< in order; none: the whole run has one
   std::optional<double> split_stretched;  ///< extent at which a point is split [cells]
   /// Acceleration beside gravity, x y z [m/s2], of grains and pore water.
   std::optional<std::array<Varying, 3>> body_acceleration;
 };
+
+/// In any of its stages?
+inline bool takes_implicit_steps(const SoilOptions& soil) {
+  const auto implicit = [](TimeMethod method) { return method == TimeMethod::implicit_steps; };
+  if (soil.stages.empty()) return implicit(soil.method);
+  return std::any_of(soil.stages.begin(), soil.stages.end(), [&](const SoilStage& stage) {
+    return implicit(stage.method.value_or(soil.method));
+  });
+}
 
 }  // namespace mudlark

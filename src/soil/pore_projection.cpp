@@ -35,22 +35,22 @@ bool exchanges_with_anyone(const Grid<D>& grid) {
 }  // namespace
 
 template <int D>
-PoreProjection<D>::PoreProjection(const Grid<D>& grid, const SoilOptions& options)
-    : grid_(&grid),
-      walls_(grid),
+PoreProjection<D>::PoreProjection(const SoilSides<D>& sides, const SoilOptions& options)
+    : sides_(&sides),
+      grid_(&sides.grid()),
       options_(&options),
-      halo_(grid),
-      ghosts_(grid),
+      halo_(*grid_),
+      ghosts_(*grid_),
       centred_(options.formulation == Formulation::u_p),
-      alone_(!exchanges_with_anyone(grid)),
-      filling_(grid, "filling", "1"),
-      pores_(grid, "pores", "1"),
-      pull_(grid, "pull of pore pressure", "Pa"),
-      rise_(grid, "rise of pore pressure", "Pa"),
-      last_rate_(grid, "rate of pore pressure", "Pa/s"),
-      flux_(grid, "flux", "m/s"),
-      system_(grid),
-      solver_(grid) {}
+      alone_(!exchanges_with_anyone(*grid_)),
+      filling_(*grid_, "filling", "1"),
+      pores_(*grid_, "pores", "1"),
+      pull_(*grid_, "pull of pore pressure", "Pa"),
+      rise_(*grid_, "rise of pore pressure", "Pa"),
+      last_rate_(*grid_, "rate of pore pressure", "Pa/s"),
+      flux_(*grid_, "flux", "m/s"),
+      system_(*grid_),
+      solver_(*grid_) {}
 
 template <int D>
 void PoreProjection<D>::cover(const IndexBox<D>& active) {
@@ -74,8 +74,8 @@ void PoreProjection<D>::measure(const std::vector<SoilParticles<D>>& bodies,
       add_filling(*grid_, bodies[b], constants[b], options_->kernel, filling_, pores_);
   const std::array<double*, 2> both{filling_.data(), pores_.data()};
   if (!alone_) halo_.add_to_owners(both);
-  fold_cells(walls_, active_, filling_);
-  fold_cells(walls_, active_, pores_);
+  fold_cells(*sides_, active_, filling_);
+  fold_cells(*sides_, active_, pores_);
   if (!alone_) halo_.exchange(both);
 }
 
@@ -85,10 +85,10 @@ bool PoreProjection<D>::at_side(int axis, const Index<D>& face) const {
   return !grid_->periodic(axis) && (face[axis] == 0 || face[axis] == grid_->cells()[axis]);
 }
 
-/// Is it a closed one?
+/// Is it one that grains do not go through?
 template <int D>
 bool PoreProjection<D>::held(int axis, const Index<D>& face) const {
-  return at_side(axis, face) && closed(grid_->wall(axis, face[axis] == 0 ? 0 : 1));
+  return at_side(axis, face) && sides_->node(axis, face[axis] == 0 ? 0 : 1, axis, face).mirrored;
 }
 
 template <int D>

@@ -18,7 +18,7 @@ namespace mudlark {
 template <int D>
 class PoreProjection {
  public:
-  PoreProjection(const Grid<D>& grid, const SoilOptions& options);
+  PoreProjection(const SoilSides<D>& sides, const SoilOptions& options);
 
   /// Restricts the work to cells around the soil, and makes ghosts valid after loading. Collective.
   void cover(const IndexBox<D>& active);
@@ -54,8 +54,8 @@ class PoreProjection {
   void keep_rise(double dt);
   [[noreturn]] void report_failure(double time) const;
 
+  const SoilSides<D>* sides_;
   const Grid<D>* grid_;
-  SoilSides<D> walls_;  ///< of the domain: no [[boundary]] beside an implicit pore pressure
   const SoilOptions* options_;
   Halo<D> halo_;
   Ghosts<D> ghosts_;

@@ -1,6 +1,7 @@
 #include "soil/side_water.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "soil/side_slopes.hpp"
 #include "soil/walls.hpp"
@@ -31,11 +32,15 @@ SideWater<D>::SideWater(const SoilSides<D>& sides)
 }
 
 template <int D>
-typename SideWater<D>::Drain* SideWater<D>::drain_on(int axis, int side) {
+const typename SideWater<D>::Drain* SideWater<D>::drain_on(int axis, int side) const {
   const auto found = std::find_if(drains_.begin(), drains_.end(), [&](const Drain& drain) {
     return drain.axis == axis && drain.side == side;
   });
   return found == drains_.end() ? nullptr : &*found;
+}
+template <int D>
+typename SideWater<D>::Drain* SideWater<D>::drain_on(int axis, int side) {
+  return const_cast<Drain*>(std::as_const(*this).drain_on(axis, side));
 }
 
 template <int D>
@@ -202,6 +207,76 @@ void SideWater<D>::spread(SoilSides<D>& sides, Halo<D>& halo) {
     halo.exchange(drain.open);
     sides.set_open(drain.axis, drain.side, drain.open);
   }
+}
+
+template <int D>
+void SideWater<D>::begin_implicit_step(const SoilSides<D>& sides, Halo<D>& halo, Kernel kernel,
+                                       const std::vector<SoilParticles<D>>& bodies) {
+  if (!drains()) return;
+  if (!started_) start(sides, bodies);
+  measure(sides, halo, kernel, bodies);
+  for (Drain& drain : drains_) halo.exchange(drain.pressure);
+}
+
+template <int D>
+double SideWater<D>::rise(const SoilSides<D>& sides, int axis, int side,
+                          const Index<D>& cell) const {
+  const Index<D> at = sides.original_on_rank(axis, side, cell);
+  return sides.water_value(axis, side, at) - drain_on(axis, side)->pressure[at];
+}
+
+template <int D>
+bool SideWater<D>::review(SoilSides<D>& sides, Halo<D>& halo, const FaceVector<D>& way,
+                          const CellField<D>& rise) {
+  if (!sides.has(WaterSide::seepage_face)) return true;
+  double switched = 0.0;
+  for (Drain& drain : drains_)
+    for_each_cell_at(sides, drain.axis, drain.side, [&](const Index<D>& cell) {
+      if (!sides.is_seepage_face(drain.axis, drain.side, cell)) return;
+      const double outwards = drain.side == 0 ? -1.0 : 1.0;
+      const Index<D> face = cell.shifted(drain.axis, drain.side);
+      double& open = drain.open[cell];
+      const bool right = open != 0.0 ? outwards * way[drain.axis][face] >= 0.0
+                                     : drain.pressure[cell] + rise[cell] <= 0.0;
+      if (right) return;
+      open = 1.0 - open;
+      switched = 1.0;
+    });
+  if (max_over_ranks(*grid_, switched) == 0.0) return true;
+  spread(sides, halo);
+  return false;
+}
+
+template <int D>
+void SideWater<D>::end_implicit_step(const SoilSides<D>& sides, const CellField<D>& rise) {
+  for (Drain& drain : drains_)
+    for_each_cell_at(sides, drain.axis, drain.side, [&](const Index<D>& cell) {
+      const WaterSide kind = sides.water(drain.axis, drain.side, cell);
+      if (kind == WaterSide::pressure)
+        drain.pressure[cell] = sides.water_value(drain.axis, drain.side, cell);
+      else
+        drain.pressure[cell] += rise[cell];  // even about the side
+    });
+}
+
+template <int D>
+typename SideWater<D>::State SideWater<D>::state() const {
+  State state{{}, volume_};
+  for (const Drain& drain : drains_) {
+    state.fields.push_back(drain.pressure.copy());
+    state.fields.push_back(drain.open.copy());
+  }
+  return state;
+}
+
+template <int D>
+void SideWater<D>::restore(const State& state, SoilSides<D>& sides, Halo<D>& halo) {
+  volume_ = state.volume;
+  for (std::size_t i = 0; i < drains_.size(); ++i) {
+    drains_[i].pressure.copy_values_from(state.fields[2 * i]);
+    drains_[i].open.copy_values_from(state.fields[2 * i + 1]);
+  }
+  spread(sides, halo);
 }
 
 template <int D>

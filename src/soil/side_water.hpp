@@ -54,6 +54,27 @@ class SideWater {
       });
     }
   }
+  /// For implicit steps: what explicit ones do one by one. Collective.
+  void begin_implicit_step(const SoilSides<D>& sides, Halo<D>& halo, Kernel kernel,
+                           const std::vector<SoilParticles<D>>& bodies);
+  /// What the pressure of a side rises by in the step [Pa].
+  double rise(const SoilSides<D>& sides, int axis, int side, const Index<D>& cell) const;
+  /// Do seepage faces that are open let water out with these ways of the water [m], and those that
+  /// are closed hold less than zero pressure with this rise of it [Pa]? Those that do not are
+  /// switched, and the step is to be solved again. Collective.
+  bool review(SoilSides<D>& sides, Halo<D>& halo, const FaceVector<D>& way,
+              const CellField<D>& rise);
+  /// Takes over the pressure on the sides.
+  void end_implicit_step(const SoilSides<D>& sides, const CellField<D>& rise);
+
+  /// What a step that is solved again starts from.
+  struct State {
+    std::vector<CellField<D>> fields;
+    std::vector<double> volume;
+  };
+  State state() const;
+  void restore(const State& state, SoilSides<D>& sides, Halo<D>& halo);
+
   void begin_outer_step(double length);
   /// Mean over the last outer step, out of the soil, by the name of the boundary [m^D/s].
   /// Collective.
@@ -88,6 +109,7 @@ class SideWater {
     CellField<D> open;      ///< of seepage faces: 1 or 0
   };
   Drain* drain_on(int axis, int side);
+  const Drain* drain_on(int axis, int side) const;
   void start(const SoilSides<D>& sides, const std::vector<SoilParticles<D>>& bodies);
   void mirror_flux(const SoilSides<D>& sides, Drain& drain, const Index<D>& cell, double dt,
                    double water_bulk_modulus, const NodeField<NodeSums, D>& sums,

@@ -84,6 +84,14 @@ Index<D> SoilSides<D>::original(int axis, int side, Index<D> cell) const {
   return cell;
 }
 
+template <int D>
+Index<D> SoilSides<D>::original_on_rank(int axis, int side, const Index<D>& cell) const {
+  Index<D> at = original(axis, side, cell);
+  for (int a = 0; a < D; ++a)
+    if (a != axis && grid_->periodic(a)) at[a] = cell[a];
+  return at;
+}
+
 /// Centre of the face on the side by a cell; of one beyond other sides where it would be, so that
 /// pressures go on.
 template <int D>
@@ -390,10 +398,7 @@ void SoilSides<D>::set_open(int axis, int side, const CellField<D>& open) {
   IndexBox<D> row = grid_->local();
   row.upper[axis] = row.lower[axis] + 1;
   for_each(row, [&](const Index<D>& cell) {
-    Index<D> from = cell;
-    from[axis] = side == 0 ? 0 : grid_->cells()[axis] - 1;
-    for (int a = 0; a < D; ++a)  // a cell beyond a side that is not periodic is the image of one
-      if (a != axis && !grid_->periodic(a)) from[a] = original(axis, side, cell)[a];
+    const Index<D> from = original_on_rank(axis, side, cell);
     if (grid_->local().contains(from)) on.now[place(axis, cell)].open = open[from] != 0.0;
   });
 }

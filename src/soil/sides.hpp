@@ -70,6 +70,10 @@ class SoilSides {
   /// Does a boundary say what holds for the pore water at a cell on its side?
   bool belongs_to(std::size_t boundary, const Index<D>& cell) const;
 
+  /// The cell at the side that one beyond other sides is the image of; periodic ones stay where
+  /// they are on this rank.
+  Index<D> original_on_rank(int axis, int side, const Index<D>& cell) const;
+
   bool is_seepage_face(int axis, int side, const Index<D>& cell) const;
   /// Opens and closes seepage faces on a side: `open(cell)` of the cells next to it on this rank,
   /// ghosts included.

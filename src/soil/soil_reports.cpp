@@ -7,6 +7,7 @@
 #include "base/errors.hpp"
 #include "parallel/collective_error.hpp"
 #include "soil/exact_sum.hpp"
+#include "soil/point_report.hpp"
 #include "soil/regime.hpp"
 #include "soil/soil_solver.hpp"
 
@@ -32,16 +33,9 @@ template <int D>
 void SoilSolver<D>::note_failed_stress(std::size_t body, const StressResult& result) {
   const auto& points = points_[body];
   const std::size_t p = result.first_failed;
-  const Point3 x = to_point3(points.position_of(p));
-  const SymTensor s = get_tensor(points.stress, p);
-  failed_stress_ = fmt::format(
-      "soil {}: law {} could not be integrated at ({:.6g}, {:.6g}, {:.6g}) m, t = {:.6g} s (point "
-      "{}: effective stress xx {:.4g}, yy {:.4g}, zz {:.4g}, zx {:.4g} Pa",
-      options_.bodies[body].name, laws_[body]->name(), x[0], x[1], x[2], time_, points.id[p], s.xx,
-      s.yy, s.zz, s.zx);
-  for (std::size_t h = 0; h < points.history.size(); ++h)
-    failed_stress_ += fmt::format(", {} {:.4g}", points.history_names[h], points.history[h][p]);
-  failed_stress_ += ")";
+  failed_stress_ = fmt::format("soil {}: law {} could not be integrated at {}, t = {:.6g} s ({})",
+                               options_.bodies[body].name, laws_[body]->name(), place_of(points, p),
+                               time_, state_of(points, p));
 }
 
 /// Names the worst point of all ranks and throws.

@@ -43,14 +43,6 @@ NodeField<T, D> make_node_field(const Grid<D>& grid, const char* name) {
   return make_node_field<T, D>(grid, name, std::make_index_sequence<static_cast<std::size_t>(D)>{});
 }
 
-template <class T, int D>
-std::array<double*, D> as_doubles(NodeField<T, D>& nodes) {
-  static_assert(sizeof(T) % sizeof(double) == 0);
-  std::array<double*, D> all{};
-  for (std::size_t a = 0; a < all.size(); ++a) all[a] = reinterpret_cast<double*>(nodes[a].data());
-  return all;
-}
-
 }  // namespace
 
 template <int D>
@@ -85,7 +77,7 @@ SoilSolver<D>::SoilSolver(const Grid<D>& grid, const SoilOptions& options)
       throw InputError(fmt::format("soil {}: law {} cannot be used with this strain measure",
                                    body.name, laws_.back()->name()));
   }
-  if (options.formulation != Formulation::u_w && two_phase()) projection_.emplace(grid, options_);
+  if (options.formulation != Formulation::u_w && two_phase()) projection_.emplace(sides_, options_);
   if (options.solids.empty()) return;
   if (is_implicit())
     throw InputError(
@@ -96,7 +88,7 @@ SoilSolver<D>::SoilSolver(const Grid<D>& grid, const SoilOptions& options)
         "that bodies are impermeable.");
   for (const SolidOptions& solid : options.solids)
     solids_.emplace_back(solid, D, to_point3(grid.gravity()), options.mass_scaling);
-  solid_contact_.emplace(grid, options);
+  solid_contact_.emplace(sides_, options);
 }
 
 template <int D>
@@ -275,18 +267,6 @@ void SoilSolver<D>::damp_face(const NodeSums& sums, double dt, NodeMotion& motio
   motion.total_flux = balance.flux(damped);
 }
 
-/// Faces whose motion this rank computes itself: its own, and those behind sides that grains go
-/// through, which are no mirrors.
-template <int D>
-IndexBox<D> SoilSolver<D>::solved_faces(int axis) const {
-  IndexBox<D> faces = grid_->owned_faces(axis);
-  for (int a = 0; a < D; ++a) {
-    if (sides_.lets_through(a, 0)) faces.lower[a] = grid_->local().lower[a];
-    if (sides_.lets_through(a, 1)) faces.upper[a] = grid_->local().upper[a];
-  }
-  return faces.intersected(active_);
-}
-
 template <int D>
 void SoilSolver<D>::solve_nodes(double dt) {
   if (projection_) projection_->add_last_rise(dt, sums_);
@@ -296,7 +276,7 @@ void SoilSolver<D>::solve_nodes(double dt) {
     const double volume = grid_->cell_volume();
     const NodeSums* sums = sums_[u].data();
     NodeMotion* motion = motion_[u].data();
-    for_each(solved_faces(d), [&](const Index<D>& face) {
+    for_each(solved_faces(sides_, d).intersected(active_), [&](const Index<D>& face) {
       const std::ptrdiff_t at = grid_->offset(face);
       solve_face(sums[at], dt, volume, {}, motion[at]);
       if (damps_at_once) damp_face(sums[at], dt, motion[at]);
@@ -306,7 +286,7 @@ void SoilSolver<D>::solve_nodes(double dt) {
     solid_contact_->apply(dt, constants_, active_, solids_, points_, sums_, motion_);
     for (int d = 0; d < D; ++d) {
       const auto u = static_cast<std::size_t>(d);
-      for_each(solved_faces(d),
+      for_each(solved_faces(sides_, d).intersected(active_),
                [&](const Index<D>& face) { damp_face(sums_[u][face], dt, motion_[u][face]); });
     }
   }
@@ -339,7 +319,8 @@ void SoilSolver<D>::solve_sides(double dt) {
     projection_->project(dt, time_, surface_.sealed(), sums_, motion_, recent_energy_);
   if (side_water_.drains()) {
     std::array<IndexBox<D>, D> faces;
-    for (int d = 0; d < D; ++d) faces[static_cast<std::size_t>(d)] = solved_faces(d);
+    for (int d = 0; d < D; ++d)
+      faces[static_cast<std::size_t>(d)] = solved_faces(sides_, d).intersected(active_);
     side_water_.solve(sides_, halo_, dt, faces, sums_, motion_);
   }
   mirror_motion(sides_, active_, sums_, motion_);
@@ -357,7 +338,7 @@ void SoilSolver<D>::account_nodes(double dt) {
     const NodeSums* sums = sums_[static_cast<std::size_t>(d)].data();
     const NodeMotion* motion = motion_[static_cast<std::size_t>(d)].data();
     double* mean = mean_velocity_[d].data();
-    for_each(solved_faces(d), [&](const Index<D>& face) {
+    for_each(solved_faces(sides_, d).intersected(active_), [&](const Index<D>& face) {
       const std::ptrdiff_t at = grid_->offset(face);
       mean[at] += dt / length_ * motion[at].grain_velocity;
       const double water_change =

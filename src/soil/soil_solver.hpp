@@ -25,6 +25,12 @@
 
 namespace mudlark {
 
+struct ImplicitOutcome;
+template <int D>
+struct ImplicitProblem;
+template <int D>
+class ImplicitSides;
+
 /// Two-phase (velocities of grains and pore water, drag implicit) or single-phase material point
 /// method, explicit in the effective stress. Pore pressure is explicit (u-w) or found by an
 /// implicit projection (u-w-p, u-p). NUMERICS A1, A2, A4, A5, C2 (kernels).
@@ -40,8 +46,9 @@ class SoilSolver {
   /// Seeds the points and sets their initial state. Collective.
   void initialise();
 
-  /// Moves the points, damped, under gravity, loads and accelerations of time zero until they are
-  /// at rest, and starts from there: velocities and work are zero, displacements where asked. After
+  /// Moves the points under gravity, loads and accelerations of time zero until they are at rest
+  /// (explicit steps: damped; implicit ones: weight and loads in a few shares), and starts from
+  /// there: velocities and work are zero, displacements where asked. After
   /// initialise(); does nothing where the options do not ask for it. Throws InputError on all ranks
   /// when the soil finds no rest. Collective.
   void find_equilibrium();
@@ -62,6 +69,11 @@ class SoilSolver {
   /// How long an outer step may be [s]: some explicit steps, or one implicit step whose error is
   /// within the tolerance. Collective.
   double outer_step() const;
+  /// What implicit steps took so far; `repeated` ones are not among the steps.
+  struct ImplicitEffort {
+    std::int64_t steps = 0, repeated = 0, newton_iterations = 0, linear_iterations = 0;
+  };
+  const ImplicitEffort& implicit_effort() const { return implicit_effort_; }
   bool is_implicit() const { return options_.method == TimeMethod::implicit_steps; }
   /// Opens an outer step [time, time + length]: redistributes and samples the loads at both ends.
   void begin_step(double time, double length, const FluidLoad<D>* water);
@@ -143,7 +155,6 @@ class SoilSolver {
   }
 
  private:
-  IndexBox<D> solved_faces(int axis) const;
   bool exchanges_halos() const;
   void gather_nodes();
   void gather_sides();
@@ -163,6 +174,12 @@ class SoilSolver {
   double squared_force_on_free_faces();
   void settle_sums();
   void advance_implicitly(double dt, int cuts);
+  void find_equilibrium_implicitly();
+  double drainage_time() const;
+  void start_from_rest();
+  void begin_implicit_step(double dt);
+  ImplicitProblem<D> implicit_problem(const ImplicitSides<D>& sides, double loads_of, double dt);
+  ImplicitOutcome solve_implicitly(ImplicitProblem<D>& problem);
   void note_failed_stress(std::size_t body, const StressResult& result);
   void report_bad_point(double largest_speed, std::size_t failed) const;
 
@@ -195,8 +212,9 @@ class SoilSolver {
   double recently_removed_mass_ = 0.0;  ///< of this rank since then
   double excavated_grain_mass_ = 0.0, placed_grain_mass_ = 0.0;  ///< over all ranks
   SoilStage defaults_;                                           ///< of what a stage may set
-  SoilEnergy energy_;          ///< up to the open outer step, over all ranks
-  SoilEnergy recent_energy_;   ///< of this rank since then
+  SoilEnergy energy_;         ///< up to the open outer step, over all ranks
+  SoilEnergy recent_energy_;  ///< of this rank since then
+  ImplicitEffort implicit_effort_;
   double next_step_ = 0.0;     ///< that the last implicit step recommends [s]
   std::string failed_stress_;  ///< the point that a law could not integrate, in words
 };

@@ -33,26 +33,27 @@ Vec<D> bounded(const Vec<D>& trial, const Contact& contact) {
 }  // namespace
 
 template <int D>
-SolidContact<D>::SolidContact(const Grid<D>& grid, const SoilOptions& options)
-    : grid_(&grid),
+SolidContact<D>::SolidContact(const SoilSides<D>& sides, const SoilOptions& options)
+    : sides_(&sides),
+      grid_(&sides.grid()),
       kernel_(options.kernel),
       inertia_(options.mass_scaling),
-      exchanges_(grid.ranks() > 1),
+      exchanges_(grid_->ranks() > 1),
       wet_(std::any_of(
           options.bodies.begin(), options.bodies.end(),
           [](const SoilBody& body) { return body.pore_water == PoreWater::two_phase; })),
-      halo_(grid),
-      velocity_(grid, "contact velocity", "m/s"),
-      slip_(grid, "contact slip of water", "m/s"),
-      mobility_(grid, "contact mobility", "1/kg"),
-      cross_mobility_(grid, "contact mobility between phases", "1/kg"),
-      slip_mobility_(grid, "contact mobility of slip", "1/kg"),
-      impulse_(grid, "contact impulse", "N s"),
-      seal_(grid, "sealing impulse", "N s"),
-      total_impulse_(grid, "contact impulse of all sweeps", "N s"),
-      total_seal_(grid, "sealing impulse of all sweeps", "N s"),
-      force_(grid, "contact force", "N") {
-  for (int a = 0; a < D; ++a) exchanges_ = exchanges_ || grid.periodic(a);
+      halo_(*grid_),
+      velocity_(*grid_, "contact velocity", "m/s"),
+      slip_(*grid_, "contact slip of water", "m/s"),
+      mobility_(*grid_, "contact mobility", "1/kg"),
+      cross_mobility_(*grid_, "contact mobility between phases", "1/kg"),
+      slip_mobility_(*grid_, "contact mobility of slip", "1/kg"),
+      impulse_(*grid_, "contact impulse", "N s"),
+      seal_(*grid_, "sealing impulse", "N s"),
+      total_impulse_(*grid_, "contact impulse of all sweeps", "N s"),
+      total_seal_(*grid_, "sealing impulse of all sweeps", "N s"),
+      force_(*grid_, "contact force", "N") {
+  for (int a = 0; a < D; ++a) exchanges_ = exchanges_ || grid_->periodic(a);
 }
 
 /// Faces that contacts may reach: the bodies' boxes and a kernel around them. Ranks that exchange
@@ -78,7 +79,7 @@ void SolidContact<D>::set_box(const std::vector<Solid>& solids, const IndexBox<D
 template <int D>
 template <class F>
 void SolidContact<D>::for_each_face(int axis, F&& f) const {
-  for_each(solved_faces(*grid_, axis).intersected(box_),
+  for_each(solved_faces(*sides_, axis).intersected(box_),
            [&](const Index<D>& face) { f(grid_->offset(face)); });
 }
 
@@ -107,29 +108,23 @@ void SolidContact<D>::gather_sums(FaceVector<D>& field, bool signs) {
     for (int d = 0; d < D; ++d) all[static_cast<std::size_t>(d)] = field[d].data();
     halo_.add_to_owners(all);
   }
-  for_each_closed_wall(*grid_, [&](int axis, int side, Wall wall) {
-    for (int d = 0; d < D; ++d) {
-      const double sign = signs ? parity(d, axis, wall) : 1.0;
-      for_each_mirror_pair(*grid_, box_, axis, side, d == axis,
-                           [&](const Index<D>& behind, const Index<D>& before) {
-                             field[d][before] += sign * field[d][behind];
-                           });
-    }
-  });
+  for (int axis = 0; axis < D; ++axis)
+    for (int d = 0; d < D; ++d)
+      for_each_image(*sides_, box_, axis, d,
+                     [&](const SideNode& node, const Index<D>& behind, const Index<D>& before) {
+                       field[d][before] += (signs ? node.grain_sign : 1.0) * field[d][behind];
+                     });
 }
 
 /// Gives ghosts and places behind closed walls their values.
 template <int D>
 void SolidContact<D>::complete(FaceVector<D>& field, bool signs) {
-  for_each_closed_wall(*grid_, [&](int axis, int side, Wall wall) {
-    for (int d = 0; d < D; ++d) {
-      const double sign = signs ? parity(d, axis, wall) : 1.0;
-      for_each_mirror_pair(*grid_, box_, axis, side, d == axis,
-                           [&](const Index<D>& behind, const Index<D>& before) {
-                             field[d][behind] = sign * field[d][before];
-                           });
-    }
-  });
+  for (int axis = 0; axis < D; ++axis)
+    for (int d = 0; d < D; ++d)
+      for_each_image(*sides_, box_, axis, d,
+                     [&](const SideNode& node, const Index<D>& behind, const Index<D>& before) {
+                       field[d][behind] = (signs ? node.grain_sign : 1.0) * field[d][before];
+                     });
   if (exchanges_) halo_.exchange(field);
 }
 
@@ -168,16 +163,12 @@ void SolidContact<D>::read_faces(double dt, const NodeField<NodeSums, D>& sums,
 /// The faces of closed walls take any impulse and stay where they are.
 template <int D>
 void SolidContact<D>::hold_walls() {
-  for_each_closed_wall(*grid_, [&](int axis, int side, Wall) {
-    IndexBox<D> wall = box_;
-    wall.lower[axis] = side == 0 ? 0 : grid_->cells()[axis];
-    wall.upper[axis] = wall.lower[axis] + 1;
-    for_each(wall.intersected(box_), [&](const Index<D>& face) {
+  for (int axis = 0; axis < D; ++axis)
+    for_each_face_on_sides(*sides_, box_, axis, [&](int, const SideNode&, const Index<D>& face) {
       velocity_[axis][face] = slip_[axis][face] = 0.0;
       cross_mobility_[axis][face] = slip_mobility_[axis][face] = 0.0;
       mobility_[axis][face] = std::min(0.0, mobility_[axis][face]);
     });
-  });
 }
 
 /// Keeps the faces with soil, makes their weights add up to one, and drops contacts without any.

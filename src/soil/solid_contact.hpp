@@ -6,6 +6,7 @@
 #include "soil/nodes.hpp"
 #include "soil/options.hpp"
 #include "soil/particles.hpp"
+#include "soil/sides.hpp"
 #include "soil/solid.hpp"
 #include "soil/transfer.hpp"
 
@@ -22,7 +23,7 @@ namespace mudlark {
 template <int D>
 class SolidContact {
  public:
-  explicit SolidContact(const Grid<D>& grid, const SoilOptions& options);
+  SolidContact(const SoilSides<D>& sides, const SoilOptions& options);
 
   /// Adds what the bodies give in a step of dt [s] to the motion of the faces in `active` and to
   /// the forces in the sums; sets the bodies' impulses. Sums come folded, motion without ghosts and
@@ -82,6 +83,7 @@ class SolidContact {
   template <class F>
   void for_each_node(int axis, const Contact& contact, F&& f) const;
 
+  const SoilSides<D>* sides_;
   const Grid<D>* grid_;
   Kernel kernel_;
   double inertia_;

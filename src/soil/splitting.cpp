@@ -74,14 +74,16 @@ Vec<D> direction_of(const SymTensor& projector) {
 
 /// How much of `way` both ways from `place` stays off the closed walls.
 template <int D>
-double free_share(const Grid<D>& grid, const Vec<D>& place, const Vec<D>& way) {
+double free_share(const SoilSides<D>& sides, const Vec<D>& place, const Vec<D>& way) {
+  const Grid<D>& grid = sides.grid();
+  const Index<D> cell = grid.cell_at(place);
   double share = 1.0;
   for (int a = 0; a < D; ++a) {
     const double length = std::abs(way[a]);
     if (length == 0.0) continue;
-    if (closed(grid.wall(a, 0)))
+    if (sides.grains(a, 0, cell) != GrainSide::open)
       share = std::min(share, 0.99 * (place[a] - grid.lower()[a]) / length);
-    if (closed(grid.wall(a, 1)))
+    if (sides.grains(a, 1, cell) != GrainSide::open)
       share = std::min(share, 0.99 * (grid.upper()[a] - place[a]) / length);
   }
   return share;
@@ -110,7 +112,9 @@ std::vector<std::size_t> too_long(const Grid<D>& grid, const Splitting& splittin
 }
 
 template <int D>
-void split(const Grid<D>& grid, const std::vector<std::size_t>& chosen, SoilParticles<D>& points) {
+void split(const SoilSides<D>& sides, const std::vector<std::size_t>& chosen,
+           SoilParticles<D>& points) {
+  const Grid<D>& grid = sides.grid();
   const std::size_t before = points.size();
   points.for_each_array([&](std::vector<double>& array) {
     for (const std::size_t p : chosen) array.push_back(array[p]);
@@ -122,7 +126,7 @@ void split(const Grid<D>& grid, const std::vector<std::size_t>& chosen, SoilPart
     // A quarter of the length from the middle to that of each half, which is half as long.
     Vec<D> way = direction_of<D>(longest.projector);
     for (int a = 0; a < D; ++a) way[a] *= 0.25 * std::sqrt(longest.squared) * grid.spacing()[a];
-    way *= free_share(grid, points.position_of(p), way);
+    way *= free_share(sides, points.position_of(p), way);
     const SymTensor half = extent + (-0.75 * longest.squared) * longest.projector;
     const std::int64_t id = points.id[p];
     points.id.push_back(half_of(id, 1));
@@ -168,7 +172,7 @@ double split_stretched(const SoilSides<D>& sides, const Splitting& splitting,
   double removed = 0.0;
   for (int any = 1; any > 0;) {
     const std::vector<std::size_t> chosen = too_long(grid, splitting, points);
-    split(grid, chosen, points);
+    split(sides, chosen, points);
     const int mine = chosen.empty() ? 0 : 1;
     MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, grid.comm());
     if (any > 0) removed += migrate(sides, points);

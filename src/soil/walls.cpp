@@ -93,20 +93,23 @@ NodeMotion image_of(const SideNode& side, double on_side, double porosity,
   return image;
 }
 
-/// The same for a component at a side; images at sides with a pressure along their normal are
-/// provisional.
+}  // namespace
+
 template <int D>
-NodeMotion image_of(const SoilSides<D>& sides, int axis, int component, const SideNode& side,
-                    const Index<D>& before, const NodeSums& sums, const NodeMotion& motion) {
-  double on_side = 0.0;
-  if (component != axis)
-    on_side = flux_along(sides, side, component, before, sums);
-  else if (side.water == WaterSide::inflow)
-    on_side = side.water_value;
-  return image_of(side, on_side, face_porosity(sums, sides.water_density()), motion);
+double flux_on_side(const SoilSides<D>& sides, int axis, int component, const SideNode& side,
+                    const Index<D>& before, const NodeSums& sums) {
+  if (component != axis) return flux_along(sides, side, component, before, sums);
+  return side.water == WaterSide::inflow ? side.water_value : 0.0;
 }
 
-}  // namespace
+template <int D>
+double push_behind(const SoilSides<D>& sides, const SidePushes<D>* pushes, int axis, int component,
+                   const Index<D>& behind) {
+  if (!pushes || !(*pushes)[static_cast<std::size_t>(axis)]) return 0.0;
+  // A face on a side folded before has the push of that side only.
+  if (component < axis && lies_on_side(sides, component, behind) == OnSide::pressure) return 0.0;
+  return (*(*pushes)[static_cast<std::size_t>(axis)])[component][behind];
+}
 
 template <int D>
 void fold_into_domain(const SoilSides<D>& sides, const IndexBox<D>& box, double dt,
@@ -121,11 +124,8 @@ void fold_into_domain(const SoilSides<D>& sides, const IndexBox<D>& box, double 
       const Around around{d == axis, grid.gravity()[d], sides.water_density(), sides.inertia(), dt};
       for_each_image(sides, box, axis, d,
                      [&](const SideNode& node, const Index<D>& behind, const Index<D>& before) {
-                       double pushed = push ? (*push)[d][behind] : 0.0;
-                       // A face on a side folded before has the push of that side only.
-                       if (push && d < axis && lies_on_side(sides, d, behind) == OnSide::pressure)
-                         pushed = 0.0;
-                       fold_node(node, around, pushed, field[behind], field[before]);
+                       fold_node(node, around, push_behind(sides, pushes, axis, d, behind),
+                                 field[behind], field[before]);
                      });
     }
     if (!push) continue;
@@ -140,11 +140,13 @@ template <int D>
 void mirror_component(const SoilSides<D>& sides, int axis, int component, const IndexBox<D>& box,
                       const NodeField<NodeSums, D>& sums, NodeField<NodeMotion, D>& nodes) {
   const auto u = static_cast<std::size_t>(component);
-  for_each_image(sides, box, axis, component,
-                 [&](const SideNode& node, const Index<D>& behind, const Index<D>& before) {
-                   nodes[u][behind] = image_of(sides, axis, component, node, before,
-                                               sums[u][before], nodes[u][before]);
-                 });
+  for_each_image(
+      sides, box, axis, component,
+      [&](const SideNode& node, const Index<D>& behind, const Index<D>& before) {
+        const double on_side = flux_on_side(sides, axis, component, node, before, sums[u][before]);
+        nodes[u][behind] = image_of(
+            node, on_side, face_porosity(sums[u][before], sides.water_density()), nodes[u][before]);
+      });
 }
 
 template <int D>
@@ -174,17 +176,16 @@ void mirror_motion(const SoilSides<D>& sides, const IndexBox<D>& box,
 }
 
 template <int D>
-IndexBox<D> solved_faces(const Grid<D>& grid, int axis) {
+IndexBox<D> solved_faces(const SoilSides<D>& sides, int axis) {
+  const Grid<D>& grid = sides.grid();
   IndexBox<D> faces = grid.owned_faces(axis);
   for (int a = 0; a < D; ++a) {
-    if (grid.touches(a, 0) && grid.wall(a, 0) == Wall::open) faces.lower[a] = grid.local().lower[a];
-    if (grid.touches(a, 1) && grid.wall(a, 1) == Wall::open) faces.upper[a] = grid.local().upper[a];
+    if (sides.lets_through(a, 0)) faces.lower[a] = grid.local().lower[a];
+    if (sides.lets_through(a, 1)) faces.upper[a] = grid.local().upper[a];
   }
   return faces;
 }
 
-template IndexBox<2> solved_faces(const Grid<2>&, int);
-template IndexBox<3> solved_faces(const Grid<3>&, int);
 template <int D>
 void forget_images(const SoilSides<D>& sides, const IndexBox<D>& box,
                    NodeField<NodeSums, D>& nodes) {
@@ -232,5 +233,13 @@ template void mirror_component(const SoilSides<3>&, int, int, const IndexBox<3>&
                                const NodeField<NodeSums, 3>&, NodeField<NodeMotion, 3>&);
 template void fold_cells(const SoilSides<2>&, const IndexBox<2>&, CellField<2>&);
 template void fold_cells(const SoilSides<3>&, const IndexBox<3>&, CellField<3>&);
+template double flux_on_side(const SoilSides<2>&, int, int, const SideNode&, const Index<2>&,
+                             const NodeSums&);
+template double flux_on_side(const SoilSides<3>&, int, int, const SideNode&, const Index<3>&,
+                             const NodeSums&);
+template double push_behind(const SoilSides<2>&, const SidePushes<2>*, int, int, const Index<2>&);
+template double push_behind(const SoilSides<3>&, const SidePushes<3>*, int, int, const Index<3>&);
+template IndexBox<2> solved_faces(const SoilSides<2>&, int);
+template IndexBox<3> solved_faces(const SoilSides<3>&, int);
 
 }  // namespace mudlark

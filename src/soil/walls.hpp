@@ -48,14 +48,24 @@ template <int D>
 void mirror_component(const SoilSides<D>& sides, int axis, int component, const IndexBox<D>& box,
                       const NodeField<NodeSums, D>& sums, NodeField<NodeMotion, D>& nodes);
 
-/// Faces whose motion this rank computes itself: its own, and those behind open sides, which are no
-/// mirrors.
+/// Faces whose motion this rank computes itself: its own, and those behind sides that grains go
+/// through, which are no mirrors.
 template <int D>
-IndexBox<D> solved_faces(const Grid<D>& grid, int axis);
+IndexBox<D> solved_faces(const SoilSides<D>& sides, int axis);
 
 /// The same fold for a scalar at cell centres.
 template <int D>
 void fold_cells(const SoilSides<D>& sides, const IndexBox<D>& box, CellField<D>& field);
+
+/// Flux of water relative to the grains on a side itself, of a component at a node before it [m/s]:
+/// what a case gives, or what weight and the slope of the side's pressure drive along it.
+template <int D>
+double flux_on_side(const SoilSides<D>& sides, int axis, int component, const SideNode& side,
+                    const Index<D>& before, const NodeSums& sums);
+/// Push of a side's pressure on the node of a component behind it [N].
+template <int D>
+double push_behind(const SoilSides<D>& sides, const SidePushes<D>* pushes, int axis, int component,
+                   const Index<D>& behind);
 
 /// Share of pores on a face [-].
 inline double face_porosity(const NodeSums& sums, double water_density) {
