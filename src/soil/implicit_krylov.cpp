@@ -4,19 +4,6 @@ namespace mudlark {
 namespace {
 
 template <int D>
-std::array<double*, D> data(FaceVector<D>& faces) {
-  std::array<double*, D> all{};
-  for (int a = 0; a < D; ++a) all[static_cast<std::size_t>(a)] = faces[a].data();
-  return all;
-}
-template <int D>
-std::array<const double*, D> read(FaceVector<D>& faces) {
-  std::array<const double*, D> all{};
-  for (int a = 0; a < D; ++a) all[static_cast<std::size_t>(a)] = faces[a].data();
-  return all;
-}
-
-template <int D>
 UnknownPlaces face_places(::Vec x, const std::array<std::vector<PetscInt>, D>& numbers,
                           const std::array<std::vector<double>, D>& signs) {
   std::array<UnknownPlaces::Places, D> fields;
@@ -73,12 +60,12 @@ void ImplicitKrylov<D>::linearise(const std::vector<LinearPoint<D>>& points) {
 template <int D>
 void ImplicitKrylov<D>::make_drag() {
   forces_.fill(0.0);
-  points_->add_drag(data(forces_));
+  points_->add_drag(pointers(forces_));
   for (int d = 0; d < D; ++d) {  // weights add up behind walls
     const auto& sign = unknowns_->water_sign[static_cast<std::size_t>(d)];
     for (std::size_t at = 0; at < sign.size(); ++at) forces_[d].data()[at] *= sign[at];
   }
-  water_.to_unknowns(read(forces_), drag_);
+  water_.to_unknowns(pointers(std::as_const(forces_)), drag_);
 }
 
 template <int D>
@@ -96,7 +83,7 @@ void ImplicitKrylov<D>::prepare() {
 /// Divergence in cells of the water's way in w_.
 template <int D>
 void ImplicitKrylov<D>::find_flow() {
-  water_.to_places(w_, data(ways_));
+  water_.to_places(w_, pointers(ways_));
   flow_.fill(0.0);
   for (int d = 0; d < D; ++d) {
     const double per_spacing = 1.0 / grid_->spacing()[d];
@@ -129,18 +116,18 @@ void ImplicitKrylov<D>::multiply(::Vec x, ::Vec y) {
   water_.take_from_all(x, w_);
   pressure_.take_from_all(x, p_);
   find_flow();
-  grains_.to_places(u_, data(ways_));
+  grains_.to_places(u_, pointers(ways_));
   const std::array<double*, 1> pressure{cell_pressure_.data()};
   pressure_.to_places(p_, pressure);
   forces_.fill(0.0), storage_.fill(0.0), pore_push_.fill(0.0);
-  points_->apply(data(ways_), cell_pressure_.data(), flow_.data(),
-                 {data(forces_), storage_.data(), pore_push_.data()});
-  grains_.to_unknowns(read(forces_), f_u_);
+  points_->apply(pointers(ways_), cell_pressure_.data(), flow_.data(),
+                 {pointers(forces_), storage_.data(), pore_push_.data()});
+  grains_.to_unknowns(pointers(std::as_const(forces_)), f_u_);
   const std::array<const double*, 1> storage{storage_.data()};
   pressure_.to_unknowns(storage, f_p_);
   VecScale(f_p_, water_scale_);
   difference_push();
-  water_.to_unknowns(read(forces_), f_w_);
+  water_.to_unknowns(pointers(std::as_const(forces_)), f_w_);
   VecPointwiseMult(w_, drag_, w_);
   VecScale(w_, 1.0 / dt_);
   VecAYPX(f_w_, -1.0, w_);
@@ -160,9 +147,9 @@ void ImplicitKrylov<D>::precondition(::Vec r, ::Vec x) {
   VecPointwiseDivide(w_, f_w_, drag_);
   VecScale(w_, dt_);
   find_flow();
-  grains_.to_places(u_, data(ways_));
+  grains_.to_places(u_, pointers(ways_));
   storage_.fill(0.0);
-  frozen_points_->apply_volume(data(ways_), flow_.data(), storage_.data());
+  frozen_points_->apply_volume(pointers(ways_), flow_.data(), storage_.data());
   const std::array<const double*, 1> storage{storage_.data()};
   pressure_.to_unknowns(storage, p_);
   VecScale(f_p_, 1.0 / water_scale_);
@@ -174,7 +161,7 @@ void ImplicitKrylov<D>::precondition(::Vec r, ::Vec x) {
   pore_push_.fill(0.0);
   frozen_points_->apply_mass(cell_pressure_.data(), pore_push_.data());
   difference_push();
-  water_.to_unknowns(read(forces_), w_);
+  water_.to_unknowns(pointers(std::as_const(forces_)), w_);
   VecAXPY(w_, 1.0, f_w_);
   VecPointwiseDivide(w_, w_, drag_);
   VecScale(w_, dt_);

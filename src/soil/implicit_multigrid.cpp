@@ -40,20 +40,6 @@ typename LinearPoint<D>::Tangent made_positive(const typename LinearPoint<D>::Ta
 }
 
 template <int D>
-std::array<double*, D> data(FaceVector<D>& faces) {
-  std::array<double*, D> all{};
-  for (int a = 0; a < D; ++a) all[static_cast<std::size_t>(a)] = faces[a].data();
-  return all;
-}
-
-template <int D>
-std::array<const double*, D> read(const FaceVector<D>& faces) {
-  std::array<const double*, D> all{};
-  for (int a = 0; a < D; ++a) all[static_cast<std::size_t>(a)] = faces[a].data();
-  return all;
-}
-
-template <int D>
 std::vector<LinearPoint<D>> with_positive_tangents(std::vector<LinearPoint<D>> points) {
   for (LinearPoint<D>& point : points) point.tangent = made_positive<D>(point.tangent);
   return points;
@@ -79,22 +65,22 @@ DisplacementMultigrid<D>::DisplacementMultigrid(const Grid<D>& grid,
   for (int d = 0; d < D; ++d)
     mass_.add(grid, d, places.numbers(static_cast<std::size_t>(d)), places.first());
   force_.fill(0.0);
-  operator_.add_stiffness_diagonal(data(force_));
+  operator_.add_stiffness_diagonal(pointers(force_));
   for (int d = 0; d < D; ++d) {  // a diagonal has no sign behind walls
     const auto& sign = unknowns.grain_sign[static_cast<std::size_t>(d)];
     for (std::size_t at = 0; at < sign.size(); ++at) force_[d].data()[at] *= sign[at];
   }
-  places.to_unknowns(read(force_), product_);
+  places.to_unknowns(pointers(std::as_const(force_)), product_);
   mass_.set_diagonal(product_);
   find_largest_eigenvalue();
 }
 
 template <int D>
 void DisplacementMultigrid<D>::multiply(::Vec way, ::Vec force) {
-  places_->to_places(way, data(way_));
+  places_->to_places(way, pointers(way_));
   force_.fill(0.0);
-  operator_.apply_stiffness(data(way_), data(force_));
-  places_->to_unknowns(read(force_), force);
+  operator_.apply_stiffness(pointers(way_), pointers(force_));
+  places_->to_unknowns(pointers(std::as_const(force_)), force);
 }
 
 /// Power iteration on mass^-1 stiffness, from a vector without a pattern.

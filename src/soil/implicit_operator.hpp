@@ -1,5 +1,7 @@
 #pragma once
 /// The linearised points of an implicit step as an operator on fields: no matrix.
+#include <array>
+#include <utility>
 #include <vector>
 
 #include "grid/field.hpp"
@@ -7,6 +9,20 @@
 #include "soil/options.hpp"
 
 namespace mudlark {
+
+/// Where the components of face values begin.
+template <int D>
+std::array<double*, D> pointers(FaceVector<D>& faces) {
+  std::array<double*, D> all{};
+  for (int a = 0; a < D; ++a) all[static_cast<std::size_t>(a)] = faces[a].data();
+  return all;
+}
+template <int D>
+std::array<const double*, D> pointers(const FaceVector<D>& faces) {
+  std::array<const double*, D> all{};
+  for (int a = 0; a < D; ++a) all[static_cast<std::size_t>(a)] = faces[a].data();
+  return all;
+}
 
 /// Sums over points that are given as LinearPoint, composite kernel. All fields by local offset;
 /// what is read has valid ghosts and mirrors, what is written is added up and not folded.

@@ -4,34 +4,16 @@
 
 #include <cstdio>
 
-#include "verification/soil/soil_runs.hpp"
+#include "verification/soil/side_runs.hpp"
 
 namespace mudlark {
 namespace {
 
 using namespace soil_runs;
 
-constexpr double viscosity = 1.002e-3;
-
-SoilBoundary side_of(int axis, int side) {
-  SoilBoundary boundary;
-  boundary.name = std::to_string(axis) + std::to_string(side);
-  boundary.axis = axis, boundary.side = side;
-  return boundary;
-}
-SoilBoundary water_side(int axis, int side, WaterSide kind, Varying value) {
-  SoilBoundary boundary = side_of(axis, side);
-  boundary.for_water = true;
-  boundary.water = kind;
-  boundary.value = std::move(value);
-  return boundary;
-}
-
-/// Soil that fills the domain.
-SoilOptions filled(int dimension, double conductivity) {
-  SoilOptions options = make_soil(dimension, {-9, -9, -9}, {9, 9, 9}, true);
-  options.bodies[0].intrinsic_permeability = conductivity * viscosity / 9810.0;
-  options.bodies[0].law = LinearElasticOptions{2e7, 0.2};
+/// Soil that fills the domain, in implicit steps.
+SoilOptions slowly_filled(int dimension, double conductivity) {
+  SoilOptions options = filled(dimension, conductivity);
   options.method = TimeMethod::implicit_steps;
   options.step_tolerance = 1e-2;
   return options;
@@ -48,17 +30,6 @@ void run_to(SoilSolver<D>& soil, double end) {
   }
 }
 
-template <int D>
-double worst_pressure(const SoilSolver<D>& soil, int axis, double at_zero, double slope) {
-  double worst = 0.0;
-  const auto& points = soil.points(0);
-  for (std::size_t p = 0; p < points.size(); ++p)
-    worst = std::max(
-        worst, std::abs(points.pore_pressure[p] - at_zero - slope * points.position[axis][p]));
-  MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
-  return worst;
-}
-
 // Darcy: q = k (p_1 - p_2) / (rho g L), the pressure linear from side to side.
 template <int D>
 void expect_darcy(int axis, Kernel kernel) {
@@ -66,7 +37,7 @@ void expect_darcy(int axis, Kernel kernel) {
   std::array<int, 3> cells{3, 3, 3};
   cells[static_cast<std::size_t>(axis)] = 9;
   const Grid<D> grid = make_grid<D>(cells, h, D == 2 ? "ssss" : "ssssss", 0.0, MPI_COMM_WORLD);
-  SoilOptions options = filled(D, conductivity);
+  SoilOptions options = slowly_filled(D, conductivity);
   options.kernel = kernel;
   options.boundaries.push_back(water_side(axis, 0, WaterSide::pressure, Varying(2000.0)));
   options.boundaries.push_back(water_side(axis, 1, WaterSide::pressure, Varying(500.0)));
@@ -96,7 +67,7 @@ void expect_standing(const std::vector<std::array<int, 2>>& sides) {
   const double level = 2.0;
   const Grid<D> grid =
       make_grid<D>({6, D == 2 ? 9 : 3, 9}, 0.1, D == 2 ? "ssss" : "ssssss", 9.81, MPI_COMM_WORLD);
-  SoilOptions options = filled(D, 1e-3);
+  SoilOptions options = slowly_filled(D, 1e-3);
   options.bodies[0].initial_stress = GeostaticStress{};
   options.bodies[0].initial_pore_pressure =
       Varying([=](const Point3&, double) { return 9810.0 * (level - 0.9); }, "level");
@@ -124,7 +95,7 @@ TEST(ImplicitSides, TakeAnInflowAndLetItOutThroughASeepageFace) {
   const double conductivity = 1e-4;
   for (const double inflow : {1e-5, -1e-5}) {
     const Grid<2> grid = make_grid<2>({10, 3, 1}, 0.1, "ssss", 0.0, MPI_COMM_WORLD);
-    SoilOptions options = filled(2, conductivity);
+    SoilOptions options = slowly_filled(2, conductivity);
     options.boundaries.push_back(water_side(0, 1, WaterSide::inflow, Varying(inflow)));
     options.boundaries.push_back(water_side(0, 0, WaterSide::seepage_face, Varying(0.0)));
     SoilSolver<2> soil(grid, options);
@@ -144,7 +115,7 @@ TEST(ImplicitSides, DrainAColumnFromItsBase) {
   const int cells = 20;
   const double conductivity = 1e-7, load = 100.0;
   const Grid<2> grid = make_grid<2>({3, cells + 2, 1}, 1.0 / cells, "ssso", 0.0, MPI_COMM_WORLD);
-  SoilOptions options = filled(2, conductivity);
+  SoilOptions options = slowly_filled(2, conductivity);
   options.step_tolerance = 3e-4;
   options.bodies[0].shape.form = BoxShape{{-9, -9, -9}, {9, 9, 1.0}};
   options.bodies[0].law = LinearElasticOptions{1e6, 0.3};
