@@ -4,7 +4,7 @@
 
 #include "soil/placing.hpp"
 #include "soil/seeding.hpp"
-#include "verification/soil/soil_runs.hpp"
+#include "verification/soil/side_runs.hpp"
 
 namespace mudlark {
 namespace {
@@ -286,6 +286,30 @@ TEST(Stages, StartFromRestAfterImplicitSteps) {
   for (const double end : {0.01, 0.02, 0.04, 0.08}) {
     run_until(soil, time, end);
     EXPECT_NEAR(settlement_below(soil, 3.0), exact, 0.01 * exact);
+  }
+}
+
+// Water seeps from side to side through stages of explicit, implicit and explicit steps: the same
+// flow in all of them once it is steady, q = k (p_1 - p_2)/(rho g L).
+TEST(Stages, SidesWithAPressureHoldItThroughAChangeOfMethod) {
+  constexpr double conductivity = 0.01, width = 0.1;
+  const Grid<2> grid = soil_runs::make_grid<2>({10, 3, 1}, width, "ssss", 0.0, MPI_COMM_WORLD);
+  SoilOptions options = soil_runs::filled(2, conductivity);
+  options.step_tolerance = 1e-2;
+  options.boundaries.push_back(soil_runs::water_side(0, 0, WaterSide::pressure, Varying(2000.0)));
+  options.boundaries.push_back(soil_runs::water_side(0, 1, WaterSide::pressure, Varying(500.0)));
+  options.stages.resize(3);
+  options.stages[1].method = TimeMethod::implicit_steps;
+  SoilSolver<2> soil(grid, options);
+  soil.initialise();
+  const double exact = conductivity * 1500.0 / 9810.0 * 3 * width;
+  double time = 0.0;
+  for (std::size_t stage = 0; stage < 3; ++stage) {
+    if (stage > 0) soil.begin_stage(stage);
+    run_until(soil, time, time + (stage == 1 ? 100.0 : 0.15));
+    EXPECT_NEAR(-soil.discharge("00"), exact, 0.01 * exact) << "stage " << stage;
+    EXPECT_NEAR(soil.discharge("01"), exact, 0.01 * exact) << "stage " << stage;
+    EXPECT_LT(soil_runs::worst_pressure(soil, 0, 2000.0, -1500.0), 15.0) << "stage " << stage;
   }
 }
 
