@@ -57,10 +57,12 @@ std::string nearest_word(std::string_view written, std::span<const std::string> 
   std::string nearest;
   std::size_t smallest = std::max<std::size_t>(2, written.size() / 3) + 1;
   for (const std::string& word : known) {
-    // A word that begins with the other is near too: "cohesion" and "cohesion_strength".
+    // A word that begins with the other is near too, "cohesion" and "cohesion_strength", but not
+    // as near as one with a letter wrong.
     const bool begins = written.size() >= 4 && word.size() >= 4 &&
                         (word.starts_with(written) || written.starts_with(word));
-    const std::size_t distance = begins ? 1 : edit_distance(written, word);
+    std::size_t distance = edit_distance(written, word);
+    if (begins) distance = std::min<std::size_t>(distance, 2);
     if (distance < smallest && distance < word.size()) smallest = distance, nearest = word;
   }
   return nearest;

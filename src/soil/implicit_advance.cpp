@@ -39,7 +39,7 @@ void SoilSolver<D>::begin_implicit_step(double dt) {
   step_ = dt;
   sides_.update(time_, dt);
   gather_nodes();
-  if (exchanges_halos()) halo_.exchange(as_doubles<NodeSums, D>(sums_), node_sums);
+  if (exchanges_halos(*grid_)) halo_.exchange(as_doubles<NodeSums, D>(sums_), node_sums);
   side_water_.begin_implicit_step(sides_, halo_, options_.kernel, points_);
 }
 
@@ -53,7 +53,7 @@ ImplicitProblem<D> SoilSolver<D>::implicit_problem(const ImplicitSides<D>& sides
 
 /// Solves a step, again as often as it takes seepage faces to be on the right side.
 template <int D>
-ImplicitOutcome SoilSolver<D>::solve_implicitly(ImplicitProblem<D>& problem) {
+ImplicitOutcome SoilSolver<D>::solve_implicitly(ImplicitProblem<D> problem) {
   const double dt = problem.dt;
   int reviews = 0;
   problem.accepts = [&](const ImplicitFields<D>& state) {
@@ -85,8 +85,7 @@ void SoilSolver<D>::advance_implicitly(double dt, int cuts) {
   const auto side_water = side_water_.state();
   begin_implicit_step(dt);
   const ImplicitSides<D> sides(sides_, side_water_, sums_, dt);
-  ImplicitProblem<D> problem = implicit_problem(sides, time_ + dt, dt);
-  const ImplicitOutcome outcome = solve_implicitly(problem);
+  const ImplicitOutcome outcome = solve_implicitly(implicit_problem(sides, time_ + dt, dt));
   const double tolerance =
       options_.step_tolerance * std::max(outcome.largest_way, 1e-9 * grid_->smallest_spacing());
   // Backward Euler: half the change of velocity times the step.
@@ -117,8 +116,8 @@ template ImplicitProblem<2> SoilSolver<2>::implicit_problem(const ImplicitSides<
                                                             double);
 template ImplicitProblem<3> SoilSolver<3>::implicit_problem(const ImplicitSides<3>&, double,
                                                             double);
-template ImplicitOutcome SoilSolver<2>::solve_implicitly(ImplicitProblem<2>&);
-template ImplicitOutcome SoilSolver<3>::solve_implicitly(ImplicitProblem<3>&);
+template ImplicitOutcome SoilSolver<2>::solve_implicitly(ImplicitProblem<2>);
+template ImplicitOutcome SoilSolver<3>::solve_implicitly(ImplicitProblem<3>);
 template double SoilSolver<2>::outer_step() const;
 template double SoilSolver<3>::outer_step() const;
 template void SoilSolver<2>::advance_implicitly(double, int);

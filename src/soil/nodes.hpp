@@ -43,4 +43,12 @@ std::array<double*, D> as_doubles(NodeField<T, D>& nodes) {
   return all;
 }
 
+/// Is there anybody to exchange ghost layers with, be it this rank itself across a periodic side?
+template <int D>
+bool exchanges_halos(const Grid<D>& grid) {
+  bool periodic = false;
+  for (int a = 0; a < D; ++a) periodic = periodic || grid.periodic(a);
+  return periodic || grid.ranks() > 1;
+}
+
 }  // namespace mudlark

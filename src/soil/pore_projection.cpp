@@ -25,13 +25,6 @@ constexpr int more_iterations = 4;
 /// A residual above this share is no solution.
 constexpr double largest_residual = 1e-6;
 
-template <int D>
-bool exchanges_with_anyone(const Grid<D>& grid) {
-  bool periodic = false;
-  for (int a = 0; a < D; ++a) periodic = periodic || grid.periodic(a);
-  return periodic || grid.ranks() > 1;
-}
-
 }  // namespace
 
 template <int D>
@@ -42,7 +35,7 @@ PoreProjection<D>::PoreProjection(const SoilSides<D>& sides, const SoilOptions& 
       halo_(*grid_),
       ghosts_(*grid_),
       centred_(options.formulation == Formulation::u_p),
-      alone_(!exchanges_with_anyone(*grid_)),
+      alone_(!exchanges_halos(*grid_)),
       filling_(*grid_, "filling", "1"),
       pores_(*grid_, "pores", "1"),
       pull_(*grid_, "pull of pore pressure", "Pa"),

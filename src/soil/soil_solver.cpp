@@ -214,7 +214,7 @@ void SoilSolver<D>::gather_nodes() {
     points_to_grid(*grid_, points_[b], constants_[b], options_.kernel, options_.transfer,
                    facets ? SurfacePressure<D>{} : surface, sums_);
   if (projection_) projection_->measure(points_, constants_);
-  if (exchanges_halos()) halo_.add_to_owners(as_doubles<NodeSums, D>(sums_), node_sums);
+  if (exchanges_halos(*grid_)) halo_.add_to_owners(as_doubles<NodeSums, D>(sums_), node_sums);
   add_body_force(*grid_, options_, time_, active_, sums_);
   gather_sides();
   if (facets) {
@@ -222,7 +222,7 @@ void SoilSolver<D>::gather_nodes() {
     for (const auto& points : points_) mark_occupied(*grid_, points, occupied_);
     // Points that wandered into a neighbour's cell since redistribute() count there.
     const std::array<double*, 1> counts{occupied_.data()};
-    if (exchanges_halos()) halo_.add_to_owners(counts);
+    if (exchanges_halos(*grid_)) halo_.add_to_owners(counts);
     for_each(active_,
              [&](const Index<D>& cell) { occupied_[cell] = occupied_[cell] > 0.0 ? 1.0 : 0.0; });
     halo_.exchange(occupied_);
@@ -292,7 +292,7 @@ void SoilSolver<D>::solve_nodes(double dt) {
   }
   solve_sides(dt);
   account_nodes(dt);
-  if (exchanges_halos()) halo_.exchange(as_doubles<NodeMotion, D>(motion_), node_motions);
+  if (exchanges_halos(*grid_)) halo_.exchange(as_doubles<NodeMotion, D>(motion_), node_motions);
 }
 
 /// What the sides make of the motion.
@@ -326,7 +326,7 @@ void SoilSolver<D>::solve_sides(double dt) {
   mirror_motion(sides_, active_, sums_, motion_);
   forget_images(sides_, active_, sums_);
   if (!side_water_.drains()) return;
-  if (exchanges_halos()) halo_.exchange(as_doubles<NodeMotion, D>(motion_), node_motions);
+  if (exchanges_halos(*grid_)) halo_.exchange(as_doubles<NodeMotion, D>(motion_), node_motions);
   side_water_.mirror_fluxes(sides_, dt, options_.water_bulk_modulus, points_, sums_, motion_);
 }
 
@@ -356,14 +356,6 @@ void SoilSolver<D>::account_nodes(double dt) {
       [&](int axis, const Index<D>& face) {
         return sums_[static_cast<std::size_t>(axis)][face].volume;
       });
-}
-
-/// Is there anybody to exchange ghost layers with, be it this rank itself across a periodic side?
-template <int D>
-bool SoilSolver<D>::exchanges_halos() const {
-  bool periodic = false;
-  for (int a = 0; a < D; ++a) periodic = periodic || grid_->periodic(a);
-  return periodic || grid_->ranks() > 1;
 }
 
 /// Grid to points, and their new state, for points few enough to stay in the cache. Returns how

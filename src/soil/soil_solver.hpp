@@ -155,7 +155,6 @@ class SoilSolver {
   }
 
  private:
-  bool exchanges_halos() const;
   void gather_nodes();
   void gather_sides();
   void solve_nodes(double dt);
@@ -179,7 +178,7 @@ class SoilSolver {
   void start_from_rest();
   void begin_implicit_step(double dt);
   ImplicitProblem<D> implicit_problem(const ImplicitSides<D>& sides, double loads_of, double dt);
-  ImplicitOutcome solve_implicitly(ImplicitProblem<D>& problem);
+  ImplicitOutcome solve_implicitly(ImplicitProblem<D> problem);
   void note_failed_stress(std::size_t body, const StressResult& result);
   void report_bad_point(double largest_speed, std::size_t failed) const;
 

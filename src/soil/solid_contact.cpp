@@ -38,7 +38,7 @@ SolidContact<D>::SolidContact(const SoilSides<D>& sides, const SoilOptions& opti
       grid_(&sides.grid()),
       kernel_(options.kernel),
       inertia_(options.mass_scaling),
-      exchanges_(grid_->ranks() > 1),
+      exchanges_(exchanges_halos(*grid_)),
       wet_(std::any_of(
           options.bodies.begin(), options.bodies.end(),
           [](const SoilBody& body) { return body.pore_water == PoreWater::two_phase; })),
@@ -52,9 +52,7 @@ SolidContact<D>::SolidContact(const SoilSides<D>& sides, const SoilOptions& opti
       seal_(*grid_, "sealing impulse", "N s"),
       total_impulse_(*grid_, "contact impulse of all sweeps", "N s"),
       total_seal_(*grid_, "sealing impulse of all sweeps", "N s"),
-      force_(*grid_, "contact force", "N") {
-  for (int a = 0; a < D; ++a) exchanges_ = exchanges_ || grid_->periodic(a);
-}
+      force_(*grid_, "contact force", "N") {}
 
 /// Faces that contacts may reach: the bodies' boxes and a kernel around them. Ranks that exchange
 /// ghosts may find a neighbour's impulses anywhere in theirs.

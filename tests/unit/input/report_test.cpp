@@ -12,6 +12,9 @@ TEST(Report, FindsTheNearestWordToATypingError) {
   EXPECT_EQ(nearest_word("poison_ratio", known), "poisson_ratio");
   EXPECT_EQ(nearest_word("prorosity", known), "porosity");
   EXPECT_EQ(nearest_word("ned", known), "end");
+  const std::vector<std::string> tables{"soil", "soil_solver"};
+  EXPECT_EQ(nearest_word("soil_solvr", tables), "soil_solver");
+  EXPECT_EQ(nearest_word("soils", tables), "soil");
 }
 
 TEST(Report, ProposesNothingForAWordThatIsLikeNone) {

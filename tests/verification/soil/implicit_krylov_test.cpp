@@ -80,6 +80,7 @@ double iterations_per_solve(int cells, double conductivity, double water_modulus
   const auto& effort = soil.implicit_effort();
   EXPECT_EQ(effort.steps, 1);
   EXPECT_EQ(effort.repeated, 0);
+  EXPECT_GT(effort.linear_iterations, 2 * effort.newton_iterations) << "a direct solver's count";
   return static_cast<double>(effort.linear_iterations) /
          static_cast<double>(effort.newton_iterations);
 }
