@@ -46,6 +46,7 @@ FlowSolver<D>::FlowSolver(const Grid<D>& grid, const FlowOptions& options)
       new_porosity_(grid, "new porosity", "1", 1.0),
       target_(grid, "target divergence", "1/s"),
       no_storage_(grid, "storage", "1/(Pa s)"),
+      capacity_(grid, "capacity", "1", 1.0),
       flux_(grid, "flux", "m/s"),
       carried_(grid, "carried water", "1"),
       mobility_(grid, "mobility", "m2 s/kg"),
@@ -61,8 +62,28 @@ void FlowSolver<D>::update_derived() {
   const double* w = water_.data();
   const double* theta = porosity_.data();
   double* alpha = saturation_.data();
-  for_each_offset(*grid_, grid_->local(),
-                  [&](std::ptrdiff_t at) { alpha[at] = w[at] / theta[at]; });
+  for_each_offset(*grid_, grid_->local(), [&](std::ptrdiff_t at) {
+    alpha[at] = theta[at] > 0.0 ? w[at] / theta[at] : 0.0;
+  });
+}
+
+/// theta_f = aperture times the mean porosity of the room beside the face, on owned and bounding
+/// faces. All that passes a face is this times its velocity, so water, porosity and pressure agree.
+template <int D>
+void FlowSolver<D>::find_capacity(const PorousMedium<D>& medium) {
+  const double* theta = porosity_.data();
+  const double* volume = medium.space.volume.data();
+  const auto porosity = [&](std::ptrdiff_t at) {
+    return volume[at] > 0.0 ? theta[at] / volume[at] : 1.0;
+  };
+  for (int a = 0; a < D; ++a) {
+    const std::ptrdiff_t s = grid_->stride(a);
+    const double* aperture = medium.space.aperture[a].data();
+    double* capacity = capacity_[a].data();
+    for_each_offset(*grid_, bounding_faces(*grid_, a), [&](std::ptrdiff_t at) {
+      capacity[at] = aperture[at] * (0.5 * (porosity(at) + porosity(at - s)));
+    });
+  }
 }
 
 template <int D>
@@ -91,9 +112,14 @@ void FlowSolver<D>::fill_with_bodies() {
 
 template <int D>
 void FlowSolver<D>::initialise(const PorousMedium<D>& medium) {
-  porosity_.copy_values_from(medium.porosity);
+  const double* volume = medium.space.volume.data();
+  const double* given = medium.porosity.data();
+  double* theta = porosity_.data();
+  for_each_offset(*grid_, grid_->local(),
+                  [&](std::ptrdiff_t at) { theta[at] = volume[at] * given[at]; });
   fill_with_bodies();
   update_derived();
+  find_capacity(medium);
   initial_volume_ = ledger().present;
   outflow_ = time_ = 0.0;
   step_ = 0;
@@ -110,7 +136,7 @@ void FlowSolver<D>::project_start(const PorousMedium<D>& medium) {
   find_target(medium, 0.0);
   for (int a = 0; a < D; ++a) mobility_[a].fill(1.0 / options_.density);
   if (max_speed().speed > 0.0) {
-    last_solve_ = projection_.project(porosity_, mobility_, target_, no_storage_, pressure_,
+    last_solve_ = projection_.project(capacity_, mobility_, target_, no_storage_, pressure_,
                                       velocity_, options_.pressure_tolerance);
     pressure_.fill(0.0);
   }
@@ -128,18 +154,17 @@ void FlowSolver<D>::project_start(const PorousMedium<D>& medium) {
   }
   target_.fill(0.0);
   last_solve_ =
-      projection_.project(porosity_, mobility_, target_, no_storage_, pressure_, flux_, round_off);
+      projection_.project(capacity_, mobility_, target_, no_storage_, pressure_, flux_, round_off);
 }
 
 template <int D>
 void FlowSolver<D>::find_flux() {
-  const double* theta = porosity_.data();
   for (int a = 0; a < D; ++a) {
-    const std::ptrdiff_t s = grid_->stride(a);
+    const double* theta = capacity_[a].data();
     const double* v = velocity_[a].data();
     double* u = flux_[a].data();
     for_each_offset(*grid_, bounding_faces(*grid_, a),
-                    [&](std::ptrdiff_t at) { u[at] = 0.5 * (theta[at] + theta[at - s]) * v[at]; });
+                    [&](std::ptrdiff_t at) { u[at] = theta[at] * v[at]; });
   }
 }
 
@@ -149,11 +174,13 @@ template <int D>
 void FlowSolver<D>::find_target(const PorousMedium<D>& medium, double dt) {
   const Grid<D>& grid = *grid_;
   const double* theta = porosity_.data();
-  const double* given = medium.porosity.data();
+  const double* porosity = medium.porosity.data();
+  const double* volume = medium.space.volume.data();
   double* target = target_.data();
   for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) {
-    const double share = given[at] < 1.0 ? drift_feedback : 1.0;
-    target[at] = dt > 0.0 ? share * (theta[at] - given[at]) / dt : 0.0;
+    const double given = volume[at] * porosity[at];
+    const double share = given < 1.0 ? drift_feedback : 1.0;
+    target[at] = dt > 0.0 ? share * (theta[at] - given) / dt : 0.0;
   });
   for (int a = 0; a < D; ++a) {
     const std::ptrdiff_t s = grid.stride(a);
@@ -178,15 +205,17 @@ void FlowSolver<D>::transport(const PorousMedium<D>& medium, double dt) {
   const double* w = old_water_.data();
   const double* theta = porosity_.data();
   const double* given = medium.porosity.data();
+  const double* volume = medium.space.volume.data();
   double* moved = new_porosity_.data();
   for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) {
-    if (!InterfaceAdvection<D>::dilates(w[at], theta[at])) moved[at] = given[at];
+    if (!InterfaceAdvection<D>::dilates(w[at], theta[at])) moved[at] = volume[at] * given[at];
   });
   interface_.follow_porosity(water_, porosity_, new_porosity_);
   check_bounds();
   add_outflow();
   ghosts_.update(water_);
   ghosts_.update(porosity_);
+  find_capacity(medium);
   carried_.copy_values_from(interface_.water_flux());
   ghosts_.exchange(carried_);
   if (options_.advection) momentum_.advance(old_water_, water_, porosity_, carried_, velocity_);
@@ -201,9 +230,9 @@ void FlowSolver<D>::advance(const PorousMedium<D>& medium, double dt) {
   projection_.find_surface(water_, porosity_, saturation_, interface_);
   if (options_.wall_law == WallLaw::werner_wengle)
     find_wall_friction(*grid_, options_, water_, velocity_, wall_friction_);
-  predictor_.advance(medium, porosity_, wall_friction_, dt, velocity_, mobility_);
+  predictor_.advance(medium, porosity_, capacity_, wall_friction_, dt, velocity_, mobility_);
   find_target(medium, dt);
-  last_solve_ = projection_.project(porosity_, mobility_, target_, medium.give_way, pressure_,
+  last_solve_ = projection_.project(capacity_, mobility_, target_, medium.give_way, pressure_,
                                     velocity_, options_.pressure_tolerance / dt);
   ghosts_.update_velocity(velocity_);
   extension_.extend(projection_.unknown(), water_, porosity_, velocity_);
@@ -251,13 +280,14 @@ double FlowSolver<D>::courant_rate() const {
       const std::ptrdiff_t s = grid.stride(axis);
       const double inverse = 1.0 / grid.spacing()[axis];
       const double* v = velocity_[axis].data();
-      const double lower = 0.5 * (theta[at] + theta[at - s]) * v[at] * inverse;
-      const double upper = 0.5 * (theta[at] + theta[at + s]) * v[at + s] * inverse;
+      const double* capacity = capacity_[axis].data();
+      const double lower = capacity[at] * v[at] * inverse;
+      const double upper = capacity[at + s] * v[at + s] * inverse;
       if (lower > 0.0 && (all || w[at - s] > nothing)) in += lower;
       if (upper < 0.0 && (all || w[at + s] > nothing)) in -= upper;
       if (wet) out += std::max(-lower, 0.0) + std::max(upper, 0.0);
     }
-    fastest = std::max(fastest, std::max(in, out) / theta[at]);
+    if (theta[at] > 0.0) fastest = std::max(fastest, std::max(in, out) / theta[at]);
   });
   return max_over_ranks(grid, fastest);
 }

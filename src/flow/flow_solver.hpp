@@ -88,6 +88,8 @@ class FlowSolver {
     a.cells("flow porosity", porosity_);
     a.cells("flow pressure", pressure_);
     a.faces("flow velocity", velocity_);
+    a.faces("flow capacity", capacity_);
+    ghosts_.exchange(capacity_);
     update_derived();
   }
 
@@ -95,6 +97,7 @@ class FlowSolver {
   void update_derived();
   void fill_with_bodies();
   void transport(const PorousMedium<D>& medium, double dt);
+  void find_capacity(const PorousMedium<D>& medium);
   void find_flux();
   void find_target(const PorousMedium<D>& medium, double dt);
   void add_outflow();
@@ -117,6 +120,7 @@ class FlowSolver {
   CellField<D> water_, porosity_, pressure_, saturation_;
   FaceVector<D> velocity_;
   CellField<D> old_water_, new_porosity_, target_, no_storage_;
+  FaceVector<D> capacity_;  ///< theta_f: what a face lets through of a unit velocity [-]
   FaceVector<D> flux_, carried_, mobility_, wall_friction_;
   double initial_volume_ = 0.0, outflow_ = 0.0, time_ = 0.0;
   std::int64_t step_ = 0;

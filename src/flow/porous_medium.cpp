@@ -4,7 +4,8 @@ namespace mudlark {
 
 template <int D>
 PorousMedium<D>::PorousMedium(const Grid<D>& grid)
-    : porosity(grid, "porosity", "1", 1.0),
+    : space(grid),
+      porosity(grid, "porosity", "1", 1.0),
       grain_flux(grid, "grain flux", "m/s"),
       grain_velocity(grid, "grain velocity", "m/s"),
       linear_drag(grid, "linear drag", "Pa s/m2"),

@@ -1,7 +1,7 @@
 #pragma once
 /// All that the flow knows of the ground: a fixed mound fills this from the case file, moving soil
 /// from coupling/. (Architecture, "the central idea".)
-#include "grid/field.hpp"
+#include "grid/space.hpp"
 
 namespace mudlark {
 
@@ -9,9 +9,10 @@ template <int D>
 struct PorousMedium {
   explicit PorousMedium(const Grid<D>& grid);
 
-  CellField<D> porosity;  ///< [-], 1 in open water; what the medium's grains leave free *now*
-  FaceVector<D>
-      grain_flux;  ///< (1-n) v_s [m/s], volume flux of the grains through faces; 0 if fixed
+  Space<D> space;         ///< what rigid bodies leave free *now*
+  CellField<D> porosity;  ///< n [-], 1 in open water; what the medium's grains leave of that *now*
+  FaceVector<D> grain_flux;  ///< (1-theta_f) v_s [m/s], volume flux of grains and bodies through
+                             ///< faces; 0 if fixed
   FaceVector<D> grain_velocity;  ///< v_s [m/s]
   FaceVector<D> linear_drag;     ///< A of the pressure loss (A + B|w|) w, w = n(v - v_s) [Pa s/m2]
   FaceVector<D> quadratic_drag;  ///< B [Pa s2/m3]

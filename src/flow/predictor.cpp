@@ -17,7 +17,8 @@ Predictor<D>::Predictor(const Grid<D>& grid, const FlowOptions& options)
 /// (NUMERICS B1) without the transposed gradient, which vanishes for constant theta and viscosity.
 template <int D>
 void Predictor<D>::find_viscous_acceleration(int component, const double* porosity,
-                                             const double* velocity, double* out) const {
+                                             const double* capacity, const double* velocity,
+                                             double* out) const {
   const Grid<D>& grid = *grid_;
   const double nu = viscosity_ / density_;
   const std::ptrdiff_t sa = grid.stride(component);
@@ -39,13 +40,13 @@ void Predictor<D>::find_viscous_acceleration(int component, const double* porosi
           (above * (velocity[at + s] - velocity[at]) - below * (velocity[at] - velocity[at - s])) /
           (h * h);
     }
-    out[at] = nu * sum / (0.5 * (porosity[at] + porosity[at - sa]));
+    out[at] = capacity[at] > 0.0 ? nu * sum / capacity[at] : 0.0;
   });
 }
 
 namespace {
 
-/// Square of the seepage velocity w = theta (v - v_s) at a face; other components from their four
+/// Square of the seepage velocity w = n (v - v_s) at a face; other components from their four
 /// neighbours.
 template <int D>
 double seepage_squared(const Grid<D>& grid, int component, const FaceVector<D>& velocity,
@@ -70,20 +71,20 @@ double seepage_squared(const Grid<D>& grid, int component, const FaceVector<D>& 
 
 template <int D>
 void Predictor<D>::advance(const PorousMedium<D>& medium, const CellField<D>& porosity,
-                           const FaceVector<D>& wall_friction, double dt, FaceVector<D>& velocity,
-                           FaceVector<D>& mobility) {
+                           const FaceVector<D>& capacity, const FaceVector<D>& wall_friction,
+                           double dt, FaceVector<D>& velocity, FaceVector<D>& mobility) {
   const Grid<D>& grid = *grid_;
-  const double* theta = porosity.data();
   for (int a = 0; a < D; ++a) {
     double* out = acceleration_[a].data();
-    find_viscous_acceleration(a, theta, velocity[a].data(), out);
+    find_viscous_acceleration(a, porosity.data(), capacity[a].data(), velocity[a].data(), out);
     // The resistance R goes into mobility first: it needs the old velocity of all components.
-    const std::ptrdiff_t s = grid.stride(a);
+    const double* theta = capacity[a].data();
+    const double* aperture = medium.space.aperture[a].data();
     const double* linear = medium.linear_drag[a].data();
     const double* quadratic = medium.quadratic_drag[a].data();
     double* m = mobility[a].data();
     for_each_offset(grid, bounding_faces(grid, a), [&](std::ptrdiff_t at) {
-      const double open = 0.5 * (theta[at] + theta[at - s]);
+      const double open = aperture[at] > 0.0 ? theta[at] / aperture[at] : 1.0;  // n_f
       double loss = linear[at];
       if (quadratic[at] > 0.0)
         loss += quadratic[at] *

@@ -11,17 +11,17 @@ class Predictor {
   Predictor(const Grid<D>& grid, const FlowOptions& options);
 
   /// velocity <- (rho (v + dt (g + nu lap v)) + dt R v_s) / (rho + dt (R + F)), F of the walls, R =
-  /// theta_f (A + B|w|) on all faces but closed walls, and mobility = dt / (rho + dt (R + F)) [m2
+  /// n_f (A + B|w|) on all faces but closed walls, and mobility = dt / (rho + dt (R + F)) [m2
   /// s/kg]: what a unit pressure gradient changes v by. Drag is implicit in v with |w| of the start
   /// of the step. Ghosts of all inputs valid; afterwards ghosts of velocity are stale; mobility
   /// holds on owned and bounding faces.
   void advance(const PorousMedium<D>& medium, const CellField<D>& porosity,
-               const FaceVector<D>& wall_friction, double dt, FaceVector<D>& velocity,
-               FaceVector<D>& mobility);
+               const FaceVector<D>& capacity, const FaceVector<D>& wall_friction, double dt,
+               FaceVector<D>& velocity, FaceVector<D>& mobility);
 
  private:
-  void find_viscous_acceleration(int component, const double* porosity, const double* velocity,
-                                 double* out) const;
+  void find_viscous_acceleration(int component, const double* porosity, const double* capacity,
+                                 const double* velocity, double* out) const;
 
   const Grid<D>* grid_;
   double density_, viscosity_;

@@ -123,10 +123,9 @@ void Projection<D>::find_wall_distances() {
 /// Couplings and Dirichlet terms of all faces, and the divergence of the predicted flux. Returns
 /// whether any face of this rank sees a given pressure.
 template <int D>
-bool Projection<D>::assemble_faces(const CellField<D>& porosity, const FaceVector<D>& mobility,
+bool Projection<D>::assemble_faces(const FaceVector<D>& capacity, const FaceVector<D>& mobility,
                                    const FaceVector<D>& velocity) {
   const Grid<D>& grid = *grid_;
-  const double* theta = porosity.data();
   const double* unknown = unknown_.data();
   double* diagonal = system_.diagonal.data();
   double* right = system_.right_side.data();
@@ -134,14 +133,13 @@ bool Projection<D>::assemble_faces(const CellField<D>& porosity, const FaceVecto
   for (int axis = 0; axis < D; ++axis) {
     const std::ptrdiff_t s = grid.stride(axis);
     const double inverse = 1.0 / grid.spacing()[axis];
+    const double* theta = capacity[axis].data();
     const double* m = mobility[axis].data();
     const double* v = velocity[axis].data();
     const double* reach = distance_[axis].data();
     double* coupling = system_.coupling[axis].data();
     const auto conductance = [&](std::ptrdiff_t at) {
-      return reach[at] > 0.0
-                 ? 0.5 * (theta[at] + theta[at - s]) * m[at] * inverse * inverse / reach[at]
-                 : 0.0;
+      return reach[at] > 0.0 ? theta[at] * m[at] * inverse * inverse / reach[at] : 0.0;
     };
     for_each_offset(grid, bounding_faces(grid, axis), [&](std::ptrdiff_t at) {
       const bool joined = unknown[at] > 0.0 && unknown[at - s] > 0.0 && reach[at] > 0.0;
@@ -151,9 +149,7 @@ bool Projection<D>::assemble_faces(const CellField<D>& porosity, const FaceVecto
     for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) {
       if (unknown[at] == 0.0) return;
       diagonal[at] += conductance(at) + conductance(at + s);
-      const double out = 0.5 * (theta[at + s] + theta[at]) * v[at + s],
-                   in = 0.5 * (theta[at] + theta[at - s]) * v[at];
-      right[at] -= (out - in) * inverse;
+      right[at] -= (theta[at + s] * v[at + s] - theta[at] * v[at]) * inverse;
     });
   }
   return given;
@@ -164,7 +160,7 @@ bool Projection<D>::assemble_faces(const CellField<D>& porosity, const FaceVecto
 /// itself (forty metres of water would leave a hundred times more). Each further pass refines the
 /// one before.
 template <int D>
-SolveReport Projection<D>::project(const CellField<D>& porosity, const FaceVector<D>& mobility,
+SolveReport Projection<D>::project(const FaceVector<D>& capacity, const FaceVector<D>& mobility,
                                    const CellField<D>& target, const CellField<D>& give_way,
                                    CellField<D>& pressure, FaceVector<D>& velocity,
                                    double tolerance) {
@@ -179,7 +175,7 @@ SolveReport Projection<D>::project(const CellField<D>& porosity, const FaceVecto
   risen_.fill(0.0);
   SolveReport report;
   for (int pass = 0; pass < most_passes && !report.converged; ++pass) {
-    const double left = assemble(porosity, mobility, target, give_way, velocity);
+    const double left = assemble(capacity, mobility, target, give_way, velocity);
     report.residual = left;
     report.converged = left <= (pass == 0 ? good_start * tolerance : tolerance);
     if (report.converged || !std::isfinite(left)) break;
@@ -195,7 +191,7 @@ SolveReport Projection<D>::project(const CellField<D>& porosity, const FaceVecto
     });
   }
   if (!report.converged) {
-    report.residual = assemble(porosity, mobility, target, give_way, velocity);
+    report.residual = assemble(capacity, mobility, target, give_way, velocity);
     report.converged = report.residual <= tolerance;
   }
   if (!report.converged)
@@ -211,7 +207,7 @@ SolveReport Projection<D>::project(const CellField<D>& porosity, const FaceVecto
 /// The system for a further rise of pressure. Returns the largest divergence that is left [1/s],
 /// over all ranks.
 template <int D>
-double Projection<D>::assemble(const CellField<D>& porosity, const FaceVector<D>& mobility,
+double Projection<D>::assemble(const FaceVector<D>& capacity, const FaceVector<D>& mobility,
                                const CellField<D>& target, const CellField<D>& give_way,
                                const FaceVector<D>& velocity) {
   const Grid<D>& grid = *grid_;
@@ -224,7 +220,7 @@ double Projection<D>::assemble(const CellField<D>& porosity, const FaceVector<D>
     system_.right_side.data()[at] =
         unknown[at] > 0.0 ? target.data()[at] - yielding * risen_.data()[at] : 0.0;
   });
-  const bool given = assemble_faces(porosity, mobility, velocity);
+  const bool given = assemble_faces(capacity, mobility, velocity);
   system_.constant_free = max_over_ranks(grid, given || storage ? 1.0 : 0.0) == 0.0;
   return solver_.largest_right_side(system_);
 }

@@ -20,9 +20,9 @@ class Projection {
 
   /// Makes div(theta_f v) = target - give_way (p - p_old) in the unknown cells by v -= mobility
   /// grad p. Gibou et al. (2002), J. Comput. Phys. 176, for the surface rows. Throws
-  /// DivergenceError when the solver does not reach `tolerance` [1/s]. Velocity ghosts are stale
-  /// afterwards, p's valid.
-  SolveReport project(const CellField<D>& porosity, const FaceVector<D>& mobility,
+  /// DivergenceError when the solver does not reach `tolerance` [1/s]. `capacity` is theta_f.
+  /// Velocity ghosts are stale afterwards, p's valid.
+  SolveReport project(const FaceVector<D>& capacity, const FaceVector<D>& mobility,
                       const CellField<D>& target, const CellField<D>& give_way,
                       CellField<D>& pressure, FaceVector<D>& velocity, double tolerance);
 
@@ -32,10 +32,10 @@ class Projection {
   double distance(const double* alpha, std::ptrdiff_t wet, int axis, int direction,
                   const InterfaceAdvection<D>& interface) const;
   void find_wall_distances();
-  double assemble(const CellField<D>& porosity, const FaceVector<D>& mobility,
+  double assemble(const FaceVector<D>& capacity, const FaceVector<D>& mobility,
                   const CellField<D>& target, const CellField<D>& give_way,
                   const FaceVector<D>& velocity);
-  bool assemble_faces(const CellField<D>& porosity, const FaceVector<D>& mobility,
+  bool assemble_faces(const FaceVector<D>& capacity, const FaceVector<D>& mobility,
                       const FaceVector<D>& velocity);
   void correct(const FaceVector<D>& mobility, const CellField<D>& pressure,
                FaceVector<D>& velocity) const;

@@ -54,7 +54,9 @@ void InterfaceAdvection<D>::sweep_axis(CellField<D>& water, const CellField<D>& 
   const double* w = water.data();
   const double* theta = porosity.data();
   double* alpha = alpha_.data();
-  for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) { alpha[at] = w[at] / theta[at]; });
+  for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) {
+    alpha[at] = theta[at] > 0.0 ? w[at] / theta[at] : 0.0;
+  });
   ghosts_.update(alpha_);
   find_planes(axis);
 

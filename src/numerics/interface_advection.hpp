@@ -25,9 +25,11 @@ class InterfaceAdvection {
  public:
   explicit InterfaceAdvection(const Grid<D>& grid);
 
-  /// Cells that count as full of water for the dilation term: W >= theta/2. The pressure solve must
-  /// make the flux free of divergence (up to the porosity's change) in exactly these cells.
-  static bool dilates(double water, double porosity) { return water >= 0.5 * porosity; }
+  /// Cells that count as full of water for the dilation term: W >= theta/2 > 0. The pressure solve
+  /// must make the flux free of divergence (up to the porosity's change) in exactly these cells.
+  static bool dilates(double water, double porosity) {
+    return porosity > 0.0 && water >= 0.5 * porosity;
+  }
 
   /// The D sweeps. `flux` is U = theta_f v [m/s], `porosity` the theta that it was made with; both
   /// need valid ghosts and stay fixed. Then `water` lacks the fourth sweep. `order` permutes the
