@@ -63,6 +63,9 @@ class FlowSolver {
   }  ///< theta as transported with the water [-]
   const FaceVector<D>& velocity() const { return velocity_; }  ///< interstitial [m/s]
   double density() const { return options_.density; }          ///< [kg/m3]
+  /// Water that passed each face in the last step as a share of a cell's volume; zero before the
+  /// first step. On owned and bounding faces.
+  const FaceVector<D>& water_flux() const { return interface_.water_flux(); }
 
   WaterLedger ledger() const;
   double kinetic_energy() const;      ///< [J], per metre in 2D

@@ -17,7 +17,7 @@ struct Kind {
   bool has_place;
 };
 
-constexpr std::array<Kind, 18> kinds{{
+constexpr std::array<Kind, 22> kinds{{
     {GaugeQuantity::water_level, "water_level", Of::water, true},
     {GaugeQuantity::pressure, "pressure", Of::water, true},
     {GaugeQuantity::velocity, "velocity", Of::water, true},
@@ -25,6 +25,10 @@ constexpr std::array<Kind, 18> kinds{{
     {GaugeQuantity::total_water, "total_water", Of::water, false},
     {GaugeQuantity::kinetic_energy, "kinetic_energy", Of::both, false},
     {GaugeQuantity::max_speed, "max_speed", Of::water, false},
+    {GaugeQuantity::section_flux, "section_flux", Of::water, false},
+    {GaugeQuantity::overtopping, "overtopping", Of::water, false},
+    {GaugeQuantity::run_up, "run_up", Of::water, false},
+    {GaugeQuantity::energy, "energy", Of::water, false},
     {GaugeQuantity::settlement, "settlement", Of::soil, true},
     {GaugeQuantity::displacement, "displacement", Of::soil, true},
     {GaugeQuantity::pore_pressure, "pore_pressure", Of::soil, true},
@@ -101,6 +105,42 @@ void read_boundary_name(Section& section, const SoilOptions& soil, GaugeOptions&
   gauge.of = section.choice<std::string>("of", choices);
 }
 
+/// The keys that only some quantities have.
+void read_own_keys(Section& section, GaugeOptions& gauge) {
+  const bool section_of =
+      gauge.quantity == GaugeQuantity::section_flux || gauge.quantity == GaugeQuantity::overtopping;
+  const bool run_up = gauge.quantity == GaugeQuantity::run_up;
+  if (section_of)
+    read_gauge_section(section, gauge.range);
+  else
+    section.forbid("section", "water is counted at one by section_flux and overtopping");
+  if (run_up) read_run_up_range(section, gauge);
+  for (const char* key : {"from", "to", "thickness"})
+    if (!run_up)
+      section.forbid(key, section_of ? "the extent of a section belongs into section = { ... }"
+                                     : "it belongs to quantity = \"run_up\"");
+  if (gauge.quantity == GaugeQuantity::water_level)
+    gauge.crossings = section.integer(
+        "crossings", {.lower = 1, .upper = 9, .reason = "the number of surfaces written"},
+        gauge.crossings);
+  else
+    section.forbid("crossings", "it belongs to quantity = \"water_level\"");
+}
+
+const char* why_no_place(const Kind& kind) {
+  switch (kind.quantity) {
+    case GaugeQuantity::discharge:
+      return "it is measured at a boundary";
+    case GaugeQuantity::section_flux:
+    case GaugeQuantity::overtopping:
+      return "it is measured at a section = { ... }";
+    case GaugeQuantity::run_up:
+      return "it is looked for between from and to";
+    default:
+      return nullptr;
+  }
+}
+
 }  // namespace
 
 void read_gauges(Section& root, CaseOptions& options) {
@@ -134,9 +174,14 @@ void read_gauges(Section& root, CaseOptions& options) {
     else
       section.forbid("at", kind.of == Of::solid
                                ? fmt::format("{} is that of a whole body", kind.name)
-                           : gauge.quantity == GaugeQuantity::discharge
-                               ? "it is measured at a boundary"
+                           : why_no_place(kind)
+                               ? why_no_place(kind)
                                : fmt::format("{} is measured in the whole domain", kind.name));
+    if (known) {
+      read_own_keys(section, gauge);
+    } else {
+      for (const char* key : {"section", "from", "to", "thickness", "crossings"}) section.has(key);
+    }
     gauge.every =
         section.number("every", quantity::time,
                        not_negative("the time between values; 0 for every step"), gauge.every);

@@ -83,6 +83,10 @@ TimeMethod read_time_method(Section& section, std::optional<TimeMethod> fallback
 RestCriterion read_rest(Section& parent, double longest);
 void read_coupling(Section& root, CaseOptions& options);
 void read_gauges(Section& root, CaseOptions& options);
+/// section = { x = 2.0, from = 0.3, to = 0.8, direction = "negative" } of a gauge.
+void read_gauge_section(Section& gauge, GaugeRange& range);
+/// from, to and thickness of a gauge of run-up.
+void read_run_up_range(Section& gauge, GaugeOptions& options);
 
 /// The shape below `key`, inside the domain, unless it may reach over its edge; nothing after a
 /// mistake.

@@ -3,6 +3,7 @@
 ///
 ///   template <class Archive> void archive(Archive& a) {
 ///     a.number("time", time_);                    // double&
+///     a.number_if_known("volume", volume_);       // the same for what a run may gain when resumed
 ///     a.integer("step", step_);                   // std::int64_t&
 ///     a.cells("water fraction", water_);          // CellField<D>&
 ///     a.faces("velocity", velocity_);             // FaceVector<D>&

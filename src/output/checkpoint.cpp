@@ -247,6 +247,13 @@ void CheckpointReader<D>::number(const std::string& name, double& value) {
 }
 
 template <int D>
+void CheckpointReader<D>::number_if_known(const std::string& name, double& value) {
+  const auto names = file_->names_in("/");
+  if (std::find(names.begin(), names.end(), dataset_of(name).substr(1)) != names.end())
+    load_single(name, value);
+}
+
+template <int D>
 void CheckpointReader<D>::integer(const std::string& name, std::int64_t& value) {
   load_single(name, value);
 }

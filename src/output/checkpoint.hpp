@@ -40,6 +40,7 @@ class CheckpointWriter {
                    std::int64_t step, double time);
 
   void number(const std::string& name, const double& value);
+  void number_if_known(const std::string& name, const double& value) { number(name, value); }
   void integer(const std::string& name, const std::int64_t& value);
   void cells(const std::string& name, const CellField<D>& field);
   void faces(const std::string& name, const FaceVector<D>& vector);
@@ -84,6 +85,8 @@ class CheckpointReader {
   int saved_ranks() const { return saved_ranks_; }
 
   void number(const std::string& name, double& value);
+  /// Leaves the value as it is when the state knows nothing of that name.
+  void number_if_known(const std::string& name, double& value);
   void integer(const std::string& name, std::int64_t& value);
   void cells(const std::string& name, CellField<D>& field);
   void faces(const std::string& name, FaceVector<D>& vector);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/errors.hpp"
+#include "flow/flow_gauges.hpp"
 #include "run/material_gauge.hpp"
 
 namespace mudlark {
@@ -96,6 +97,41 @@ std::vector<double> read_solid(World<D>& world, const GaugeOptions& gauge) {
 }
 
 template <int D>
+std::vector<double> read_levels(World<D>& world, const GaugeOptions& gauge) {
+  std::vector<double> levels =
+      surfaces_over(world.grid(), world.flow()->saturation(), place_of<D>(gauge));
+  if (levels.empty()) levels.push_back(world.grid().lower()[D - 1]);
+  levels.resize(static_cast<std::size_t>(gauge.crossings),
+                std::numeric_limits<double>::quiet_NaN());
+  return levels;
+}
+
+template <int D>
+double read_run_up(World<D>& world, const GaugeOptions& gauge) {
+  RunUpRange<D> range;
+  for (int a = 0; a + 1 < D; ++a)
+    range.from[a] = gauge.range.from[static_cast<std::size_t>(a)],
+    range.to[a] = gauge.range.to[static_cast<std::size_t>(a)];
+  range.thickness = gauge.thickness;
+  return run_up(world.grid(), world.flow()->saturation(), world.flow()->porosity(), range);
+}
+
+template <int D>
+std::vector<double> read_energy(World<D>& world) {
+  const FlowSolver<D>& flow = *world.flow();
+  const double moving = flow.kinetic_energy();
+  const double lifted =
+      potential_energy(world.grid(), flow.water_fraction(), flow.saturation(), flow.density());
+  return {moving, lifted, moving + lifted};
+}
+
+std::vector<std::string> level_columns(int crossings) {
+  std::vector<std::string> columns{"water level [m]"};
+  for (int n = 2; n <= crossings; ++n) columns.push_back(fmt::format("water level {} [m]", n));
+  return columns;
+}
+
+template <int D>
 double kinetic_energy(World<D>& world) {
   double energy = world.flow() ? world.flow()->kinetic_energy() : 0.0;
   if (world.soil()) {
@@ -111,7 +147,7 @@ std::vector<std::string> gauge_columns(const GaugeOptions& gauge, int dimension)
   const std::string volume = dimension == 2 ? "m2" : "m3", energy = dimension == 2 ? "J/m" : "J";
   switch (gauge.quantity) {
     case GaugeQuantity::water_level:
-      return {"water level [m]"};
+      return level_columns(gauge.crossings);
     case GaugeQuantity::pressure:
       return {"pressure [Pa]"};
     case GaugeQuantity::velocity:
@@ -124,6 +160,15 @@ std::vector<std::string> gauge_columns(const GaugeOptions& gauge, int dimension)
       return {"kinetic energy [" + energy + "]"};
     case GaugeQuantity::max_speed:
       return {"largest speed [m/s]"};
+    case GaugeQuantity::section_flux:
+      return {"discharge [" + volume + "/s]"};
+    case GaugeQuantity::overtopping:
+      return {"volume [" + volume + "]", "discharge [" + volume + "/s]"};
+    case GaugeQuantity::run_up:
+      return {"run-up [m]"};
+    case GaugeQuantity::energy:
+      return {"kinetic energy [" + energy + "]", "potential energy [" + energy + "]",
+              "energy [" + energy + "]"};
     case GaugeQuantity::settlement:
       return {"settlement [m]"};
     case GaugeQuantity::displacement:
@@ -156,7 +201,7 @@ std::vector<double> read_gauge(World<D>& world, const GaugeOptions& gauge) {
   const Vec<D> place = place_of<D>(gauge);
   switch (gauge.quantity) {
     case GaugeQuantity::water_level:
-      return {world.flow()->surface_height(place)};
+      return read_levels(world, gauge);
     case GaugeQuantity::pressure:
       return {world.flow()->pressure_at(place)};
     case GaugeQuantity::velocity: {
@@ -171,6 +216,16 @@ std::vector<double> read_gauge(World<D>& world, const GaugeOptions& gauge) {
       return {kinetic_energy(world)};
     case GaugeQuantity::max_speed:
       return {world.flow()->max_speed().speed};
+    case GaugeQuantity::section_flux:
+      return {world.meters().of(gauge.name).discharge};
+    case GaugeQuantity::overtopping: {
+      const FlowMeter& meter = world.meters().of(gauge.name);
+      return {meter.volume, meter.discharge};
+    }
+    case GaugeQuantity::run_up:
+      return {read_run_up(world, gauge)};
+    case GaugeQuantity::energy:
+      return read_energy(world);
     case GaugeQuantity::solid_force:
     case GaugeQuantity::solid_moment:
     case GaugeQuantity::solid_displacement:

@@ -1,5 +1,6 @@
 #pragma once
 /// A whole case as plain data: what input/ makes of a case file and run/ builds the world from.
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,13 +24,17 @@ struct TimeOptions {
 };
 
 enum class GaugeQuantity {
-  water_level,         ///< height of the water surface in the column through `at` [m]
+  water_level,         ///< heights of the water surfaces in the column through `at` [m]
   pressure,            ///< of the flow at `at` [Pa]
   velocity,            ///< of the flow at `at`, one column per axis [m/s]
   front,               ///< largest x that water reaches [m] (no `at`)
   total_water,         ///< volume of free-flow water [m^D] (no `at`)
   kinetic_energy,      ///< of water and soil [J] (J/m in 2D) (no `at`)
   max_speed,           ///< largest speed of the water [m/s] (no `at`)
+  section_flux,        ///< water through a section, mean over the last outer step [m^D/s]
+  overtopping,         ///< water through a section since the start [m^D], and as section_flux
+  run_up,              ///< highest surface of water that stands on the ground [m]
+  energy,              ///< kinetic, potential and their sum, of the water [J] (J/m in 2D)
   settlement,          ///< downward displacement of the material that started at `at` [m]
   displacement,        ///< of the material that started at `at`, one column per axis [m]
   pore_pressure,       ///< of the material that started at `at` [Pa]
@@ -43,12 +48,26 @@ enum class GaugeQuantity {
   discharge,           ///< of pore water out through a boundary [m^D/s] (no `at`)
 };
 
+inline constexpr double unbounded = std::numeric_limits<double>::infinity();
+
+/// Part of a plane across an axis, or of the ground: what water is counted through or looked for
+/// on.
+struct GaugeRange {
+  std::size_t axis = 0;  ///< across the plane: 0 x, 1 y, 2 z
+  double place = 0.0;    ///< of the plane along it [m]
+  double sign = 1.0;     ///< +1 counts what flows towards larger coordinates
+  Point3 from{-unbounded, -unbounded, -unbounded}, to{unbounded, unbounded, unbounded};  ///< [m]
+};
+
 struct GaugeOptions {
   std::string name;
   GaugeQuantity quantity = GaugeQuantity::water_level;
   Point3 at{};
-  std::string of;      ///< name of the rigid body, or of the boundary
-  double every = 0.0;  ///< [s]; 0: every outer step
+  GaugeRange range;        ///< section_flux, overtopping, run_up
+  double thickness = 0.0;  ///< run_up: of the water that counts as wet [m]
+  int crossings = 1;       ///< water_level: surfaces that are written, the topmost first
+  std::string of;          ///< name of the rigid body, or of the boundary
+  double every = 0.0;      ///< [s]; 0: every outer step
 };
 
 struct CaseOptions {

@@ -36,7 +36,8 @@ World<D>::World(const CaseOptions& options, MPI_Comm comm)
       grid_(options.domain, comm),
       clock_(options.time, gauge_periods(options)),
       fixed_(grid_),
-      medium_(grid_) {
+      medium_(grid_),
+      meters_(grid_, options.gauges) {
   if (options.flow) {
     flow_.emplace(grid_, *options.flow);
     fill_fixed_ground(grid_, *options.flow, fixed_);
@@ -128,6 +129,7 @@ void World<D>::advance_flow(double dt) {
   {
     const Stopwatch watch(effort_.flow);
     flow_->advance(medium_, dt);
+    meters_.read(*flow_, dt);
   }
   if (!coupling_) return;
   const Stopwatch watch(effort_.mapping);

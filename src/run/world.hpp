@@ -6,6 +6,7 @@
 #include "coupling/surface_coupling.hpp"
 #include "flow/flow_solver.hpp"
 #include "run/clock.hpp"
+#include "run/flow_meters.hpp"
 #include "run/ledger.hpp"
 #include "run/options.hpp"
 #include "run/stage_record.hpp"
@@ -51,6 +52,7 @@ class World {
   Effort& effort() { return effort_; }
 
   const Ledger<D>& ledger() const { return ledger_; }
+  const FlowMeters<D>& meters() const { return meters_; }
   /// One per stage of the case; those that did not end yet have not `ended`.
   const std::vector<StageRecord>& stages() const { return stages_; }
 
@@ -58,6 +60,7 @@ class World {
   void archive(Archive& a) {
     clock_.archive(a);
     ledger_.archive(a);
+    meters_.archive(a);
     for (StageRecord& stage : stages_) stage.archive(a);
     if (flow_) flow_->archive(a);
     if (soil_) soil_->archive(a);
@@ -78,6 +81,7 @@ class World {
   std::optional<SurfaceCoupling<D>> coupling_;
   std::optional<FluidLoad<D>> load_;
   Ledger<D> ledger_;
+  FlowMeters<D> meters_;
   std::vector<StageRecord> stages_;
   Effort effort_;
 };
