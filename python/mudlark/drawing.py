@@ -21,6 +21,14 @@ def extent(state):
     return [lower[0], upper[0], lower[-1], upper[-1]]
 
 
+def draw_cells(axes, state, values, **style):
+    """Cells of the x-z plane in colours."""
+    if not state.stretched:
+        return axes.imshow(values, origin="lower", extent=extent(state), interpolation="nearest", aspect="auto",
+                           **style)
+    return axes.pcolormesh(state.faces(0), state.faces(len(state.lower) - 1), values, **style)
+
+
 def points_in_cut(points, state):
     """Which points lie in the drawn layer of cells; all in 2D."""
     if state is None or len(state.lower) == 2:
@@ -44,8 +52,7 @@ def draw_water(axes, results, time, points=None):
         soil = near_points(state, points, reach=0)
         soil[:-1] &= soil[1:]
         shading[soil] = 0.0
-    axes.imshow(shading, origin="lower", extent=extent(state), cmap=WATER, vmin=0, vmax=1, interpolation="nearest",
-                aspect="auto", zorder=1)
+    draw_cells(axes, state, shading, cmap=WATER, norm=Normalize(0, 1), zorder=1)
     return state
 
 

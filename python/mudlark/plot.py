@@ -136,8 +136,7 @@ def draw_field(results, name, times, path):
     limits = drawing.frame(results, points, states[0])
     figure, axes = panels_for(limits, len(times))
     for axis, state, values in zip(axes.flat, states, cut):
-        image = axis.imshow(values * factor, origin="lower", extent=drawing.extent(state), norm=norm, cmap="viridis",
-                            interpolation="nearest", aspect="auto")
+        image = drawing.draw_cells(axis, state, values * factor, norm=norm, cmap="viridis")
         finish_panel(axis, limits, state.time)
     figure.colorbar(image, ax=axes, label=f"{name} [{unit}]" if unit != "1" else name, shrink=0.8, pad=0.02)
     return save(figure, path, axes, len(times))

@@ -52,16 +52,23 @@ class FieldState:
     time: float
     values: np.ndarray   # [z, x] or [z, y, x]; vectors with their components (x, z or x, y, z) last
     lower: np.ndarray    # corner of the domain, per axis [m]
-    spacing: np.ndarray  # cell size per axis [m]
+    spacing: np.ndarray  # cell size per axis [m], the mean one of stretched axes
+    stretched: dict      # positions of the faces [m] of stretched axes, by axis
 
     @property
     def upper(self):
-        counts = self.values.shape[: len(self.spacing)][::-1]
-        return self.lower + self.spacing * counts
+        return np.array([self.faces(axis)[-1] for axis in range(len(self.spacing))])
+
+    def faces(self, axis):
+        """Positions of the cells' ends along an axis [m]."""
+        if axis in self.stretched:
+            return self.stretched[axis]
+        count = self.values.shape[len(self.spacing) - 1 - axis]
+        return self.lower[axis] + np.arange(count + 1) * self.spacing[axis]
 
     def centres(self, axis):
-        count = self.values.shape[len(self.spacing) - 1 - axis]
-        return self.lower[axis] + (np.arange(count) + 0.5) * self.spacing[axis]
+        faces = self.faces(axis)
+        return 0.5 * (faces[1:] + faces[:-1])
 
 
 @dataclass
@@ -162,12 +169,15 @@ class Results:
             group = file[group_name]
             data = next(d for d in group.values() if _text(d.attrs["name"]) == name)
             lower, spacing = group.attrs["lower"], group.attrs["spacing"]
+            names = "xz" if len(spacing) == 2 else "xyz"
+            stretched = {axis: group.attrs[f"faces_{name}"] for axis, name in enumerate(names)
+                         if f"faces_{name}" in group.attrs}
             values = data[()]
             if len(spacing) == 2:  # stored with one layer along y
                 values = values[:, 0]
                 if int(data.attrs["components"]) == 3:
                     values = values[..., [0, 2]]
-            return FieldState(name, _text(data.attrs["unit"]), at, values, lower, spacing)
+            return FieldState(name, _text(data.attrs["unit"]), at, values, lower, spacing, stretched)
 
     def points(self, time=None):
         """The state nearest to `time`; the last one without."""

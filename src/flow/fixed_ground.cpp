@@ -26,9 +26,8 @@ AnyDragLaw law_of(const PorousGround& g, const FlowOptions& water) {
 
 /// Share inside the shape of the cell-sized box around a point.
 template <int D>
-double share_around(const Grid<D>& grid, const Shape& shape, const Vec<D>& centre) {
-  return fraction_inside(shape, to_point3(centre - 0.5 * grid.spacing()),
-                         to_point3(centre + 0.5 * grid.spacing()), D);
+double share_around(const Shape& shape, const Vec<D>& centre, const Vec<D>& half) {
+  return fraction_inside(shape, to_point3(centre - half), to_point3(centre + half), D);
 }
 
 }  // namespace
@@ -42,12 +41,17 @@ void fill_fixed_ground(const Grid<D>& grid, const FlowOptions& options, PorousMe
   for (const PorousGround& ground : options.porous) {
     const DragCoefficients drag = drag_of(ground, options);
     for_each(grid.owned(), [&](const Index<D>& cell) {
-      const double share = share_around(grid, ground.shape, grid.cell_centre(cell));
+      Vec<D> half;
+      for (int a = 0; a < D; ++a) half[a] = 0.5 * grid.width(a, cell[a]);
+      const double share = share_around(ground.shape, grid.cell_centre(cell), half);
       medium.porosity[cell] += share * (ground.porosity - medium.porosity[cell]);
     });
     for (int axis = 0; axis < D; ++axis)
       for_each(grid.owned_faces(axis), [&](const Index<D>& face) {
-        const double share = share_around(grid, ground.shape, grid.face_centre(axis, face));
+        Vec<D> half;
+        for (int a = 0; a < D; ++a)
+          half[a] = 0.5 * (a == axis ? grid.gap(a, face[a]) : grid.width(a, face[a]));
+        const double share = share_around(ground.shape, grid.face_centre(axis, face), half);
         medium.linear_drag[axis][face] += share * (drag.linear - medium.linear_drag[axis][face]);
         medium.quadratic_drag[axis][face] +=
             share * (drag.quadratic - medium.quadratic_drag[axis][face]);

@@ -17,7 +17,10 @@ double end_of_water(const Grid<D>& grid, const CellField<D>& saturation, const I
   const double here = std::min(saturation[cell], 1.0);
   const double beyond =
       cell[axis] + 1 < grid.cells()[axis] ? saturation[cell.shifted(axis, 1)] : 0.0;
-  return grid.lower()[axis] + (cell[axis] + here + std::max(beyond, 0.0)) * grid.spacing()[axis];
+  const int index = cell[axis];
+  const double next = index + 1 < grid.cells()[axis] ? grid.width(axis, index + 1) : 0.0;
+  return grid.face_position(axis, index) + here * grid.width(axis, index) +
+         std::max(beyond, 0.0) * next;
 }
 
 /// Largest of the ranks' values; `position` becomes the centre of its cell, given by the place
@@ -162,10 +165,14 @@ double interpolate(const Grid<D>& grid, const double* values, int axis, const Ve
     Index<D> corner;
     Vec<D> share;
     for (int a = 0; a < D; ++a) {
-      const double place =
-          (position[a] - grid.lower()[a]) / grid.spacing()[a] - (a == axis ? 0.0 : 0.5);
-      corner[a] = static_cast<int>(std::floor(place));
-      share[a] = place - corner[a];
+      corner[a] = cell[a];
+      if (a == axis) {
+        share[a] = (position[a] - grid.face_position(a, cell[a])) / grid.width(a, cell[a]);
+        continue;
+      }
+      double beyond = position[a] - grid.cell_centre(cell)[a];
+      if (beyond < 0.0) corner[a] -= 1, beyond += grid.gap(a, cell[a]);
+      share[a] = beyond / grid.gap(a, corner[a] + 1);
     }
     for (int k = 0; k < (1 << D); ++k) {
       Index<D> index = corner;

@@ -89,9 +89,10 @@ void FlowSolver<D>::find_capacity(const PorousMedium<D>& medium) {
 template <int D>
 void FlowSolver<D>::fill_with_bodies() {
   const Grid<D>& grid = *grid_;
-  const Vec<D> half = 0.5 * grid.spacing();
   for_each(grid.owned(), [&](const Index<D>& cell) {
     const Vec<D> centre = grid.cell_centre(cell);
+    Vec<D> half;
+    for (int a = 0; a < D; ++a) half[a] = 0.5 * grid.width(a, cell[a]);
     double share = 0.0;
     for (const WaterBody& body : options_.bodies)
       share += fraction_inside(body.shape, to_point3(centre - half), to_point3(centre + half), D);
@@ -100,6 +101,9 @@ void FlowSolver<D>::fill_with_bodies() {
   for (int axis = 0; axis < D; ++axis)
     for_each(grid.owned_faces(axis), [&](const Index<D>& face) {
       const Vec<D> centre = grid.face_centre(axis, face);
+      Vec<D> half;
+      for (int a = 0; a < D; ++a)
+        half[a] = 0.5 * (a == axis ? grid.gap(a, face[a]) : grid.width(a, face[a]));
       for (const WaterBody& body : options_.bodies) {
         // A face belongs to a body that reaches into one of its cells.
         const double touched =
@@ -143,8 +147,8 @@ void FlowSolver<D>::project_start(const PorousMedium<D>& medium) {
   extension_.extend(projection_.unknown(), water_, porosity_, velocity_);
   double round_off = 1e-300;  // what cancellation leaves of the divergence under the deepest water
   for (int a = 0; a < D; ++a) {
-    round_off = std::max(round_off,
-                         4e-15 * grid.cells()[a] * std::abs(grid.gravity()[a]) / grid.spacing()[a]);
+    round_off = std::max(
+        round_off, 4e-15 * grid.cells()[a] * std::abs(grid.gravity()[a]) / grid.smallest_spacing());
     flux_[a].fill(grid.gravity()[a]);
   }
   for (int a = 0; a < D; ++a) {  // no flow through closed walls
@@ -179,7 +183,7 @@ void FlowSolver<D>::find_target(const PorousMedium<D>& medium, double dt) {
   double* target = target_.data();
   for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) {
     const double given = volume[at] * porosity[at];
-    const double share = given < 1.0 ? drift_feedback : 1.0;
+    const double share = porosity[at] < 1.0 ? drift_feedback : 1.0;
     target[at] = dt > 0.0 ? share * (theta[at] - given) / dt : 0.0;
   });
   for (int a = 0; a < D; ++a) {

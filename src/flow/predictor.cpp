@@ -1,5 +1,6 @@
 #include "flow/predictor.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "numerics/loops.hpp"
@@ -11,37 +12,53 @@ Predictor<D>::Predictor(const Grid<D>& grid, const FlowOptions& options)
     : grid_(&grid),
       density_(options.density),
       viscosity_(options.viscosity),
-      acceleration_(grid, "viscous acceleration", "m/s2") {}
+      acceleration_(grid, "viscous acceleration", "m/s2") {
+  const auto inverse_square = [](double length) { return 1.0 / (length * length); };
+  for (int a = 0; a < D; ++a) {
+    const auto u = static_cast<std::size_t>(a);
+    for (int i = grid.local().lower[a]; i < grid.local().upper[a]; ++i) {
+      across_cell_[u].push_back(inverse_square(grid.width(a, i)));
+      // No stencil reaches across the lowest face of the ghost layers.
+      across_face_[u].push_back(inverse_square(grid.gap(a, std::max(i, -ghost_layers + 1))));
+    }
+  }
+}
 
 /// (1/theta_f) div(theta nu grad v) of one component: the Brinkman term of the porous flow
 /// (NUMERICS B1) without the transposed gradient, which vanishes for constant theta and viscosity.
+/// On stretched axes it is the Laplacian in the grid's own coordinates: d is the distance over
+/// which the velocity changes, and the capacities hold the areas and volumes.
 template <int D>
 void Predictor<D>::find_viscous_acceleration(int component, const double* porosity,
-                                             const double* capacity, const double* velocity,
-                                             double* out) const {
+                                             const double* velocity, double* out) const {
   const Grid<D>& grid = *grid_;
   const double nu = viscosity_ / density_;
   const std::ptrdiff_t sa = grid.stride(component);
-  for_each_offset(grid, bounding_faces(grid, component), [&](std::ptrdiff_t at) {
-    double sum = 0.0;
-    for (int axis = 0; axis < D; ++axis) {
-      const std::ptrdiff_t s = grid.stride(axis);
-      double below, above;  // porosity where the momentum passes
-      if (axis == component) {
-        below = porosity[at - s];
-        above = porosity[at];
-      } else {
-        const double middle = porosity[at] + porosity[at - sa];
-        below = 0.25 * (middle + porosity[at - s] + porosity[at - s - sa]);
-        above = 0.25 * (middle + porosity[at + s] + porosity[at + s - sa]);
-      }
-      const double h = grid.spacing()[axis];
-      sum +=
-          (above * (velocity[at + s] - velocity[at]) - below * (velocity[at] - velocity[at - s])) /
-          (h * h);
-    }
-    out[at] = capacity[at] > 0.0 ? nu * sum / capacity[at] : 0.0;
-  });
+  for_each_place(
+      grid, bounding_faces(grid, component), [&](std::ptrdiff_t at, const Index<D>& face) {
+        double sum = 0.0;
+        for (int axis = 0; axis < D; ++axis) {
+          const std::ptrdiff_t s = grid.stride(axis);
+          double below, above;  // capacity where the momentum passes
+          if (axis == component) {
+            below = porosity[at - s];
+            above = porosity[at];
+          } else {
+            const double middle = porosity[at] + porosity[at - sa];
+            below = 0.25 * (middle + porosity[at - s] + porosity[at - s - sa]);
+            above = 0.25 * (middle + porosity[at + s] + porosity[at + s - sa]);
+          }
+          const auto u = static_cast<std::size_t>(axis);
+          const auto i = static_cast<std::size_t>(face[axis] - grid.local().lower[axis]);
+          const bool along = axis == component;
+          above *= along ? across_cell_[u][i] : across_face_[u][i + 1];
+          below *= along ? across_cell_[u][i - 1] : across_face_[u][i];
+          sum +=
+              above * (velocity[at + s] - velocity[at]) - below * (velocity[at] - velocity[at - s]);
+        }
+        const double held = 0.5 * (porosity[at] + porosity[at - sa]);
+        out[at] = held > 0.0 ? nu * sum / held : 0.0;
+      });
 }
 
 namespace {
@@ -76,7 +93,7 @@ void Predictor<D>::advance(const PorousMedium<D>& medium, const CellField<D>& po
   const Grid<D>& grid = *grid_;
   for (int a = 0; a < D; ++a) {
     double* out = acceleration_[a].data();
-    find_viscous_acceleration(a, porosity.data(), capacity[a].data(), velocity[a].data(), out);
+    find_viscous_acceleration(a, porosity.data(), velocity[a].data(), out);
     // The resistance R goes into mobility first: it needs the old velocity of all components.
     const double* theta = capacity[a].data();
     const double* aperture = medium.space.aperture[a].data();

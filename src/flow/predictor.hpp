@@ -20,11 +20,14 @@ class Predictor {
                FaceVector<D>& velocity, FaceVector<D>& mobility);
 
  private:
-  void find_viscous_acceleration(int component, const double* porosity, const double* capacity,
-                                 const double* velocity, double* out) const;
+  void find_viscous_acceleration(int component, const double* porosity, const double* velocity,
+                                 double* out) const;
 
   const Grid<D>* grid_;
   double density_, viscosity_;
+  /// 1/d^2 [1/m2] by local index along each axis, d the width of a cell and the distance between
+  /// the centres of the cells beside a face.
+  std::array<std::vector<double>, D> across_cell_, across_face_;
   FaceVector<D> acceleration_;
 };
 

@@ -68,6 +68,18 @@ double Projection<D>::distance(const double* alpha, std::ptrdiff_t wet, int axis
   return std::clamp((alpha[wet] - 0.5) / (alpha[wet] - alpha[dry]), shortest, 1.0);
 }
 
+/// xi counts in widths of the wet cell up to its end and in those of the dry one beyond; on a
+/// stretched axis they differ.
+template <int D>
+double Projection<D>::in_mean_cells(double xi, std::ptrdiff_t wet, int axis, int direction) const {
+  const Grid<D>& grid = *grid_;
+  if (!grid.stretched(axis)) return xi;
+  const int cell = grid.index_along(axis, wet);
+  const double inside = std::min(xi, 0.5) * grid.width(axis, cell);
+  const double beyond = std::max(xi - 0.5, 0.0) * grid.width(axis, cell + direction);
+  return (inside + beyond) / grid.spacing()[axis];
+}
+
 template <int D>
 void Projection<D>::find_surface(const CellField<D>& water, const CellField<D>& porosity,
                                  const CellField<D>& alpha,
@@ -84,12 +96,17 @@ void Projection<D>::find_surface(const CellField<D>& water, const CellField<D>& 
     double* distance_here = distance_[axis].data();
     for_each_offset(grid, bounding_faces(grid, axis), [&](std::ptrdiff_t at) {
       const bool above = unknown[at] > 0.0, below = unknown[at - s] > 0.0;
+      double& here = distance_here[at];
       if (above && below)
-        distance_here[at] = 1.0;
+        here = grid.stretched(axis)
+                   ? grid.gap(axis, grid.index_along(axis, at)) / grid.spacing()[axis]
+                   : 1.0;
       else if (below)
-        distance_here[at] = distance(alpha.data(), at - s, axis, 1, interface);
+        here = in_mean_cells(distance(alpha.data(), at - s, axis, 1, interface), at - s, axis, 1);
+      else if (above)
+        here = in_mean_cells(distance(alpha.data(), at, axis, -1, interface), at, axis, -1);
       else
-        distance_here[at] = above ? distance(alpha.data(), at, axis, -1, interface) : 0.0;
+        here = 0.0;
     });
   }
   find_wall_distances();
@@ -105,11 +122,13 @@ void Projection<D>::find_wall_distances() {
       IndexBox<D> wall = grid.owned();
       wall.lower[axis] = side == 0 ? wall.lower[axis] : wall.upper[axis];
       wall.upper[axis] = wall.lower[axis] + 1;
+      const double half =
+          0.5 * grid.width(axis, side == 0 ? 0 : grid.cells()[axis] - 1) / grid.spacing()[axis];
       const std::ptrdiff_t inside = side == 0 ? 0 : -grid.stride(axis);
       double* distance_here = distance_[axis].data();
       const double* unknown = unknown_.data();
       for_each_offset(grid, wall, [&](std::ptrdiff_t at) {
-        distance_here[at] = open && unknown[at + inside] > 0.0 ? 0.5 : 0.0;
+        distance_here[at] = open && unknown[at + inside] > 0.0 ? half : 0.0;
       });
       // Nothing behind a wall is an unknown: the mirror cell only served the interface.
       IndexBox<D> behind = grid.owned();
@@ -230,15 +249,19 @@ double Projection<D>::assemble(const FaceVector<D>& capacity, const FaceVector<D
 template <int D>
 void Projection<D>::fix_constant(CellField<D>& pressure) {
   const Grid<D>& grid = *grid_;
-  double mean = 0.0, sum = 0.0, cells = 1.0;
-  for (int a = 0; a < D; ++a) {
-    cells *= grid.cells()[a];
-    if (!grid.periodic(a))
-      mean += 0.5 * density_ * std::abs(grid.gravity()[a]) * grid.cells()[a] * grid.spacing()[a];
-  }
+  double cells = 1.0, missing = 0.0;
+  for (int a = 0; a < D; ++a) cells *= grid.cells()[a];
   double* p = pressure.data();
-  for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) { sum += p[at]; });
-  const double shift = mean - sum_over_ranks(grid, sum) / cells;
+  for_each(grid.owned(), [&](const Index<D>& cell) {
+    const Vec<D> centre = grid.cell_centre(cell);
+    for (int a = 0; a < D; ++a) {
+      if (grid.periodic(a)) continue;
+      const double g = grid.gravity()[a];
+      missing += density_ * g * (centre[a] - (g < 0.0 ? grid.upper() : grid.lower())[a]);
+    }
+    missing -= pressure[cell];
+  });
+  const double shift = sum_over_ranks(grid, missing) / cells;
   for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) { p[at] += shift; });
   ghosts_.update(pressure);
 }

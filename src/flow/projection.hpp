@@ -13,8 +13,9 @@ class Projection {
   Projection(const Grid<D>& grid, const FlowOptions& options);
 
   /// Finds the cells with a pressure unknown (alpha >= 1/2) and, for each of their faces, the
-  /// distance over which the pressure falls: 1 cell between two unknowns, xi to the surface (where
-  /// p = 0), 1/2 to an open wall. `alpha` needs valid ghosts.
+  /// distance over which the pressure falls, in mean cells: that of the centres between two
+  /// unknowns, xi to the surface (where p = 0), half a cell to an open wall. `alpha` needs valid
+  /// ghosts.
   void find_surface(const CellField<D>& water, const CellField<D>& porosity,
                     const CellField<D>& alpha, const InterfaceAdvection<D>& interface);
 
@@ -31,6 +32,7 @@ class Projection {
  private:
   double distance(const double* alpha, std::ptrdiff_t wet, int axis, int direction,
                   const InterfaceAdvection<D>& interface) const;
+  double in_mean_cells(double xi, std::ptrdiff_t wet, int axis, int direction) const;
   void find_wall_distances();
   double assemble(const FaceVector<D>& capacity, const FaceVector<D>& mobility,
                   const CellField<D>& target, const CellField<D>& give_way,
@@ -45,7 +47,7 @@ class Projection {
   double density_;
   Ghosts<D> ghosts_;
   CellField<D> unknown_;
-  FaceVector<D> distance_;     ///< in cells; 0: no pressure acts on the face
+  FaceVector<D> distance_;     ///< in mean cells; 0: no pressure acts on the face
   CellField<D> rise_, risen_;  ///< of the pressure in this pass, and in all of this projection [Pa]
   PressureSystem<D> system_;
   PressureSolver<D> solver_;

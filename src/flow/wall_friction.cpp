@@ -17,7 +17,8 @@ template <int D>
 void add_friction(const Grid<D>& grid, const FlowOptions& options, int axis, int side,
                   int component, const CellField<D>& water, const FaceVector<D>& velocity,
                   FaceVector<D>& resistance) {
-  const double h = grid.spacing()[axis], nu = options.viscosity / options.density;
+  const double h = grid.width(axis, side == 0 ? 0 : grid.cells()[axis] - 1),
+               nu = options.viscosity / options.density;
   const std::ptrdiff_t inwards = side == 0 ? grid.stride(axis) : -grid.stride(axis);
   const std::ptrdiff_t sc = grid.stride(component);
   IndexBox<D> row = bounding_faces(grid, component);

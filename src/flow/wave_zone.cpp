@@ -50,7 +50,6 @@ template <int D>
 double WaveZones<D>::blend_water(const CellField<D>& porosity, double time, double dt,
                                  CellField<D>& water) const {
   const Grid<D>& grid = *grid_;
-  const double h = grid.spacing()[D - 1];
   double added = 0.0;
   for (const Zone& zone : zones_)
     for_each(grid.owned(), [&](const Index<D>& cell) {
@@ -58,6 +57,7 @@ double WaveZones<D>::blend_water(const CellField<D>& porosity, double time, doub
       const double position = centre[zone.options.axis];
       const double taken = share(zone, position, dt);
       if (taken == 0.0) return;
+      const double h = grid.width(D - 1, cell[D - 1]);
       const double below = level(zone, position, time) - (centre[D - 1] - 0.5 * h);
       const double target = porosity[cell] * std::clamp(below / h, 0.0, 1.0);
       const double change = taken * (target - water[cell]);
@@ -71,7 +71,6 @@ template <int D>
 void WaveZones<D>::blend_velocity(const CellField<D>& water, double time, double dt,
                                   FaceVector<D>& velocity) const {
   const Grid<D>& grid = *grid_;
-  const double h = grid.spacing()[D - 1];
   for (const Zone& zone : zones_)
     for (int component = 0; component < D; ++component)
       for_each(bounding_faces(grid, component), [&](const Index<D>& face) {
@@ -81,6 +80,8 @@ void WaveZones<D>::blend_velocity(const CellField<D>& water, double time, double
         if (taken == 0.0) return;
         const double surface = level(zone, position, time);
         const bool wet = water[face] > 0.0 || water[face.shifted(component, -1)] > 0.0;
+        const int up = face[D - 1];
+        const double h = component == D - 1 ? grid.gap(D - 1, up) : grid.width(D - 1, up);
         if (!wet && place[D - 1] - 0.5 * h > surface) return;
         double target = 0.0;
         if (component == zone.options.axis || component == D - 1) {

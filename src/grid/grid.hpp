@@ -1,8 +1,9 @@
 #pragma once
-/// The one grid that water and soil share: uniform, rectangular, staggered (MAC), split over MPI
-/// ranks.
+/// The one grid that water and soil share: rectangular, staggered (MAC), split over MPI ranks. Axes
+/// may be stretched, for water alone: see Space for what that does to a cell.
 #include <array>
 #include <cstddef>
+#include <vector>
 
 #include "base/vec.hpp"
 #include "grid/domain_options.hpp"
@@ -14,9 +15,10 @@ namespace mudlark {
 /// wall.
 inline constexpr int ghost_layers = 3;
 
-/// Value type. Cell `c` spans lower + c*spacing .. lower + (c+1)*spacing; face `c` of axis `a` is
-/// the lower face of cell `c` along `a`, so that axis has faces 0 .. cells[a] (the last one closes
-/// the domain and lies, on the last rank, in the first ghost layer).
+/// Value type. Cell `c` spans lower + c*spacing .. lower + (c+1)*spacing on a uniform axis, between
+/// the given faces on a stretched one; face `c` of axis `a` is the lower face of cell `c` along
+/// `a`, so that axis has faces 0 .. cells[a] (the last one closes the domain and lies, on the last
+/// rank, in the first ghost layer).
 template <int D>
 class Grid {
  public:
@@ -26,10 +28,17 @@ class Grid {
   const Index<D>& cells() const { return cells_; }
   const Vec<D>& lower() const { return lower_; }
   Vec<D> upper() const;
-  const Vec<D>& spacing() const { return spacing_; }  ///< [m]
+  const Vec<D>& spacing() const { return spacing_; }  ///< [m]; of stretched axes the mean
   const Vec<D>& gravity() const { return gravity_; }  ///< [m/s2]
-  double cell_volume() const { return volume_; }      ///< [m^D], area in 2D
+  double cell_volume() const { return volume_; }      ///< [m^D], area in 2D; of mean cells
   double smallest_spacing() const;                    ///< [m]
+  bool stretched(int axis) const { return !faces_[static_cast<std::size_t>(axis)].empty(); }
+  bool stretched() const;
+  /// Position of a face, size of a cell and distance between the centres of the cells beside a face
+  /// along an axis, ghost layers included [m].
+  double face_position(int axis, int face) const;
+  double width(int axis, int cell) const;
+  double gap(int axis, int face) const;
   Wall wall(int axis, int side) const {
     return walls_[static_cast<std::size_t>(axis)][static_cast<std::size_t>(side)];
   }
@@ -65,6 +74,8 @@ class Grid {
 
   Vec<D> cell_centre(const Index<D>& cell) const;            ///< [m]
   Vec<D> face_centre(int axis, const Index<D>& face) const;  ///< [m]
+  /// Index along an axis of a place in the local arrays.
+  int index_along(int axis, std::ptrdiff_t at) const;
   /// Cell that holds a position; outside the domain the index lies outside global().
   Index<D> cell_at(const Vec<D>& position) const;
 
@@ -72,6 +83,7 @@ class Grid {
   Index<D> cells_;
   Vec<D> lower_, spacing_, gravity_;
   double volume_ = 1.0;
+  std::array<std::vector<double>, D> faces_;  ///< of stretched axes, with the ghost layers
   std::array<std::array<Wall, 2>, D> walls_{};
   std::array<std::array<double, 2>, D> wall_friction_{};
   Partition<D> partition_;

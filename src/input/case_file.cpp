@@ -1,10 +1,21 @@
 #include "input/case_file.hpp"
 
+#include <algorithm>
+
 #include "base/errors.hpp"
 #include "input/document.hpp"
 #include "input/sections.hpp"
 
 namespace mudlark {
+
+namespace {
+
+bool has_equal_cells(const DomainOptions& domain) {
+  return std::all_of(domain.faces.begin(), domain.faces.end(),
+                     [](const auto& faces) { return faces.empty(); });
+}
+
+}  // namespace
 
 CaseOptions read_case(const std::filesystem::path& file, std::span<const std::string> overrides) {
   Reading reading;
@@ -21,6 +32,11 @@ CaseOptions read_case(const std::filesystem::path& file, std::span<const std::st
   const WaterProperties water = read_water(root, options);
   read_porous(root, options, grounds);
   read_soil(root, options, water, stages, grounds);
+  if (options.soil && !has_equal_cells(options.domain))
+    reading.report.add(
+        root.place("soil"),
+        "soil needs cells of one size, and [[domain.refinement]] stretches them\n  (its material "
+        "points carry splines of a uniform grid). Leave the refinement out.");
   read_solids(root, options);
   read_coupling(root, options);
   read_loads(root, options);

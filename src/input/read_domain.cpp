@@ -16,12 +16,6 @@ std::size_t axes_of(const DomainOptions& domain) {
   return static_cast<std::size_t>(domain.dimension);
 }
 
-std::string_view axis_name(int dimension, std::size_t axis) {
-  constexpr std::array<std::string_view, 2> two{"x", "z"};
-  constexpr std::array<std::string_view, 3> three{"x", "y", "z"};
-  return dimension == 2 ? two[axis] : three[axis];
-}
-
 /// Lower and upper corner; false when they make no domain.
 bool read_corners(Section& section, DomainOptions& domain) {
   const std::size_t axes = axes_of(domain);
@@ -214,6 +208,8 @@ void read_domain(Section& root, CaseOptions& options) {
   const bool cells_known = read_cells(section, domain, corners_known);
   read_gravity(section, domain);
   read_walls(section, domain, cells_known);
+  const auto mean_cells = domain.cells;
+  read_refinements(section, domain, corners_known && cells_known);
   section.finish();
   if (!corners_known) return;
   const std::size_t axes = axes_of(domain);
@@ -228,7 +224,13 @@ void read_domain(Section& root, CaseOptions& options) {
   if (!cells_known) return;
   for (std::size_t a = 0; a < axes; ++a)
     reading.spacing[axes == 2 && a == 1 ? 2 : a] =
-        (domain.upper[a] - domain.lower[a]) / domain.cells[a];
+        (domain.upper[a] - domain.lower[a]) / mean_cells[a];
+}
+
+std::string_view axis_name(int dimension, std::size_t axis) {
+  constexpr std::array<std::string_view, 2> two{"x", "z"};
+  constexpr std::array<std::string_view, 3> three{"x", "y", "z"};
+  return dimension == 2 ? two[axis] : three[axis];
 }
 
 Point3 point_from_axes(const std::vector<double>& axes) {

@@ -31,6 +31,8 @@ struct Stage {
 };
 
 void read_domain(Section& root, CaseOptions& options);
+/// [[domain.refinement]]: makes axes of cells that are smaller in some regions.
+void read_refinements(Section& domain_section, DomainOptions& domain, bool domain_known);
 /// [[stage]]: after [domain] and before [time].
 std::vector<Stage> read_stages(Section& root, CaseOptions& options);
 /// Checks the stages against soil, loads and solvers, and puts them into the options.
@@ -103,6 +105,8 @@ std::optional<double> read_permeability(Section& section, double density, double
 /// Reports bodies of ground, or rigid ones, that fill the same space.
 void check_overlaps(Reading& reading, const std::vector<NamedShape>& grounds);
 
+/// Name of an axis in 2D (x, z) or 3D.
+std::string_view axis_name(int dimension, std::size_t axis);
 /// A position given per axis, as (x, y, z).
 Point3 point_from_axes(const std::vector<double>& axes);
 

@@ -1,6 +1,7 @@
 #pragma once
 /// Loops over boxes of the local arrays by position: the inner loop is plain and can be vectorised.
 #include <cstddef>
+#include <utility>
 
 #include "grid/grid.hpp"
 
@@ -21,6 +22,22 @@ inline void for_each_offset(const Grid<D>& grid, const IndexBox<D>& box, Body&& 
   } else {
     for (int k = box.lower[2]; k < box.upper[2]; ++k)
       for (int j = box.lower[1]; j < box.upper[1]; ++j) row(Index<3>{{box.lower[0], j, k}});
+  }
+}
+
+/// The same with body(at, index).
+template <int D, class Body>
+inline void for_each_place(const Grid<D>& grid, const IndexBox<D>& box, Body&& body) {
+  for (IndexBox<D> row = box; !box.empty();) {
+    Index<D> index = row.lower;
+    std::ptrdiff_t at = grid.offset(index);
+    for (; index[0] < box.upper[0]; ++index[0], ++at) body(at, std::as_const(index));
+    int axis = 1;  // the next row
+    while (axis < D && ++row.lower[axis] == box.upper[axis]) {
+      row.lower[axis] = box.lower[axis];
+      ++axis;
+    }
+    if (axis == D) return;
   }
 }
 

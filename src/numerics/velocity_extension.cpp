@@ -118,7 +118,7 @@ void VelocityExtension<D>::find_squeeze(const double* unknown, const double* wat
       const double* v = velocity[axis].data();
       const double* state = state_[axis].data();
       const std::ptrdiff_t s = grid.stride(axis);
-      const double inverse = 1.0 / grid.spacing()[axis];
+      const double inverse = 1.0 / grid.width(axis, grid.index_along(axis, at));
       opening += (v[at + s] - v[at]) * inverse;
       free_sides +=
           inverse * ((state[at] == flying ? 1.0 : 0.0) + (state[at + s] == flying ? 1.0 : 0.0));

@@ -28,6 +28,9 @@ std::int64_t grid_hash(const Grid<D>& grid) {
   for (int a = 0; a < D; ++a)
     text += fmt::format(" {} {:.17g} {:.17g} {}", grid.cells()[a], grid.lower()[a],
                         grid.spacing()[a], grid.periodic(a));
+  for (int a = 0; a < D; ++a)
+    for (int i = 0; grid.stretched(a) && i < grid.cells()[a]; ++i)
+      text += fmt::format(" {:.17g}", grid.face_position(a, i));
   return checkpoint_file::hash_of(text);
 }
 

@@ -1,5 +1,7 @@
 #include "output/field_writer.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 
 #include "grid/halo.hpp"
@@ -7,6 +9,13 @@
 
 namespace mudlark {
 namespace {
+
+template <int D>
+std::vector<double> faces_of(const Grid<D>& grid, int axis) {
+  std::vector<double> faces;
+  for (int i = 0; i <= grid.cells()[axis]; ++i) faces.push_back(grid.face_position(axis, i));
+  return faces;
+}
 
 template <int D>
 XdmfGrid shown_grid(const Grid<D>& grid) {
@@ -18,6 +27,7 @@ XdmfGrid shown_grid(const Grid<D>& grid) {
     shown.lower[to] = grid.lower()[a];
     shown.spacing[to] = grid.spacing()[a];
     shown.cells[to] = grid.cells()[a];
+    if (grid.stretched(a)) shown.faces[to] = faces_of(grid, a);
   }
   return shown;
 }
@@ -71,6 +81,10 @@ void FieldWriter<D>::write(double time, std::int64_t step,
     }
     file.set_attribute(output.group, "lower", lower);
     file.set_attribute(output.group, "spacing", spacing);
+    for (int a = 0; a < D; ++a)
+      if (grid_->stretched(a))
+        file.set_attribute(output.group, fmt::format("faces_{}", "xyz"[a == D - 1 ? 2 : a]),
+                           faces_of(*grid_, a));
     for (const CellField<D>* field : cells) store(file, output, *field);
     for (const FaceVector<D>* vector : faces) store(file, output, *vector);
   });

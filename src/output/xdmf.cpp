@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace mudlark {
 namespace {
 
@@ -79,11 +81,11 @@ std::string head(const StoredOutput& output, const char* name) {
 
 }  // namespace
 
-std::string xdmf_of_fields(const std::string& data_file, const XdmfGrid& grid,
-                           const std::vector<StoredOutput>& outputs) {
-  const auto& [lower, spacing, cells] = grid;
-  const std::string extent = fmt::format("{} {} {}", cells[2], cells[1], cells[0]);
-  const std::string geometry = fmt::format(
+namespace {
+
+std::string uniform_geometry(const XdmfGrid& grid) {
+  const auto& [lower, spacing, cells, faces] = grid;
+  return fmt::format(
       "      <Topology TopologyType=\"3DCoRectMesh\" Dimensions=\"{} {} {}\"/>\n"
       "      <Geometry GeometryType=\"ORIGIN_DXDYDZ\"><DataItem Dimensions=\"3\" "
       "NumberType=\"Float\" Precision=\"8\" "
@@ -93,6 +95,36 @@ std::string xdmf_of_fields(const std::string& data_file, const XdmfGrid& grid,
       "{:.17g}</DataItem></Geometry>\n",
       cells[2] + 1, cells[1] + 1, cells[0] + 1, lower[2], lower[1], lower[0], spacing[2],
       spacing[1], spacing[0]);
+}
+
+/// With the positions of all faces along each axis.
+std::string stretched_geometry(const XdmfGrid& grid) {
+  std::string text = fmt::format(
+      "      <Topology TopologyType=\"3DRectMesh\" Dimensions=\"{} {} {}\"/>\n"
+      "      <Geometry GeometryType=\"VXVYVZ\">",
+      grid.cells[2] + 1, grid.cells[1] + 1, grid.cells[0] + 1);
+  for (std::size_t a = 0; a < 3; ++a) {
+    text += fmt::format(
+        "<DataItem Dimensions=\"{}\" NumberType=\"Float\" Precision=\"8\" Format=\"XML\">",
+        grid.cells[a] + 1);
+    for (int i = 0; i <= grid.cells[a]; ++i)
+      text += fmt::format("{:.17g} ", grid.faces[a].empty()
+                                          ? grid.lower[a] + i * grid.spacing[a]
+                                          : grid.faces[a][static_cast<std::size_t>(i)]);
+    text += "</DataItem>";
+  }
+  return text + "</Geometry>\n";
+}
+
+}  // namespace
+
+std::string xdmf_of_fields(const std::string& data_file, const XdmfGrid& grid,
+                           const std::vector<StoredOutput>& outputs) {
+  const auto& cells = grid.cells;
+  const std::string extent = fmt::format("{} {} {}", cells[2], cells[1], cells[0]);
+  const bool stretched = std::any_of(grid.faces.begin(), grid.faces.end(),
+                                     [](const auto& faces) { return !faces.empty(); });
+  const std::string geometry = stretched ? stretched_geometry(grid) : uniform_geometry(grid);
   std::string grids;
   for (const StoredOutput& output : outputs) {
     grids += head(output, "grid") + geometry;

@@ -8,14 +8,16 @@
 
 namespace mudlark {
 
-/// Uniform grid in space, axes x y z. A 2D grid is shown as a sheet of one cell from y = 0 on, in
-/// the x-z plane: ParaView 5.11 reads no cell values of a grid without thickness.
+/// Rectangular grid in space, axes x y z; `faces` of stretched axes, else empty. A 2D grid is shown
+/// as a sheet of one cell from y = 0 on, in the x-z plane: ParaView 5.11 reads no cell values of a
+/// grid without thickness.
 struct XdmfGrid {
   std::array<double, 3> lower{}, spacing{};  ///< [m]
   std::array<int, 3> cells{};
+  std::array<std::vector<double>, 3> faces;  ///< [m]
 };
 
-/// Cell values on a uniform grid at several times.
+/// Cell values on a rectangular grid at several times.
 std::string xdmf_of_fields(const std::string& data_file, const XdmfGrid& grid,
                            const std::vector<StoredOutput>& outputs);
 

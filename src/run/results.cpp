@@ -105,6 +105,19 @@ class PointTable {
   std::vector<State> states_;
 };
 
+/// W per volume of the cell itself: the solver's counts per mean cell of a stretched grid.
+template <int D>
+CellField<D> water_per_cell(World<D>& world) {
+  const Grid<D>& grid = world.grid();
+  CellField<D> share(grid, "water fraction", "1");
+  for_each(grid.owned(), [&](const Index<D>& cell) {
+    double size = 1.0;
+    for (int a = 0; a < D; ++a) size *= grid.width(a, cell[a]) / grid.spacing()[a];
+    share[cell] = world.flow()->water_fraction()[cell] / size;
+  });
+  return share;
+}
+
 /// How much of each cell rigid bodies fill, from the distance of its centre to their surface.
 template <int D>
 CellField<D> solid_share(World<D>& world) {
@@ -173,8 +186,9 @@ void Results<D>::write_fields(World<D>& world) {
   last_output_ = world.clock().time();
   std::vector<const CellField<D>*> cells;
   std::vector<const FaceVector<D>*> faces;
+  std::optional<CellField<D>> per_cell;
   if (FlowSolver<D>* flow = world.flow()) {
-    cells = {&flow->saturation(), &flow->water_fraction(), &flow->pressure()};
+    cells = {&flow->saturation(), &per_cell.emplace(water_per_cell(world)), &flow->pressure()};
     faces = {&flow->velocity()};
   }
   cells.push_back(&world.medium().porosity);
