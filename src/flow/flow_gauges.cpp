@@ -14,8 +14,17 @@ namespace {
 /// Share of the cell `index` along an axis between from and to.
 template <int D>
 double share_between(const Grid<D>& grid, int axis, int index, double from, double to) {
-  const double h = grid.spacing()[axis], lower = grid.lower()[axis] + index * h;
+  const double h = grid.width(axis, index), lower = grid.face_position(axis, index);
   return std::clamp((std::min(lower + h, to) - std::max(lower, from)) / h, 0.0, 1.0);
+}
+
+/// The face of an axis that lies nearest to a place.
+template <int D>
+int nearest_face(const Grid<D>& grid, int axis, double place) {
+  Vec<D> position = grid.lower();
+  position[axis] = place;
+  const int cell = std::clamp(grid.cell_at(position)[axis], 0, grid.cells()[axis] - 1);
+  return place - grid.face_position(axis, cell) < 0.5 * grid.width(axis, cell) ? cell : cell + 1;
 }
 
 }  // namespace
@@ -24,9 +33,7 @@ template <int D>
 double own_water_through(const Grid<D>& grid, const FaceVector<D>& through,
                          const FlowSection<D>& section) {
   const int axis = section.axis, cells = grid.cells()[axis];
-  int plane =
-      static_cast<int>(std::lround((section.place - grid.lower()[axis]) / grid.spacing()[axis]));
-  plane = std::clamp(plane, 0, cells);
+  int plane = nearest_face(grid, axis, section.place);
   if (grid.periodic(axis)) plane %= cells;
   IndexBox<D> faces = grid.owned_faces(axis);
   faces.lower[axis] = std::max(faces.lower[axis], plane);
@@ -61,14 +68,15 @@ std::vector<double> surfaces_over(const Grid<D>& grid, const CellField<D>& satur
   MPI_Allreduce(mine.data(), alpha.data(), static_cast<int>(height), MPI_DOUBLE, MPI_SUM,
                 grid.comm());
   std::vector<double> surfaces;
-  const double h = grid.spacing()[up], bottom = grid.lower()[up];
+  const auto width = [&](std::size_t k) { return grid.width(up, static_cast<int>(k)); };
   const auto wet = [&](std::size_t k) { return k < height && alpha[k] >= 0.5; };
   for (std::size_t k = height; k-- > 0;) {
     const double above = k + 1 < height ? alpha[k + 1] : 0.0;
-    const double floor = bottom + static_cast<double>(k) * h;
-    if (wet(k) && !wet(k + 1)) surfaces.push_back(floor + (alpha[k] + above) * h);
+    const double h = width(k), next = width(k + 1);
+    const double floor = grid.face_position(up, static_cast<int>(k));
+    if (wet(k) && !wet(k + 1)) surfaces.push_back(floor + alpha[k] * h + above * next);
     if (!wet(k) && wet(k + 1))  // water over air: it fills its cells from above
-      surfaces.push_back(floor + (2.0 - alpha[k] - above) * h);
+      surfaces.push_back(floor + (1.0 - alpha[k]) * h + (1.0 - above) * next);
   }
   return surfaces;
 }
@@ -86,15 +94,14 @@ template <int D>
 ColumnPiece read_piece(const Grid<D>& grid, const CellField<D>& saturation,
                        const CellField<D>& porosity, Index<D> cell) {
   constexpr int up = D - 1;
-  const double h = grid.spacing()[up];
   ColumnPiece piece{std::numeric_limits<double>::quiet_NaN(), 0.0, 1.0};
   if (grid.owned().lower[up] == 0) piece.ground = grid.lower()[up];
   for (cell[up] = grid.owned().lower[up]; cell[up] < grid.owned().upper[up]; ++cell[up]) {
     if (porosity[cell] < 1.0 - 1e-6)
-      piece = {grid.lower()[up] + (cell[up] + 1) * h, 0.0, 1.0};
+      piece = {grid.face_position(up, cell[up] + 1), 0.0, 1.0};
     else if (piece.through > 0.0) {
       const double alpha = std::clamp(saturation[cell], 0.0, 1.0);
-      piece.depth += alpha * h;
+      piece.depth += alpha * grid.width(up, cell[up]);
       piece.through = alpha >= 0.5 ? 1.0 : 0.0;
     }
   }
@@ -124,12 +131,14 @@ double run_up(const Grid<D>& grid, const CellField<D>& saturation, const CellFie
   columns.lower[up] = 0, columns.upper[up] = 1;
   std::size_t wide = 1;
   for (int a = 0; a < up; ++a) {
-    const double h = grid.spacing()[a], centre = grid.lower()[a] + 0.5 * h;
-    const double cells = grid.cells()[a];
-    columns.lower[a] =
-        static_cast<int>(std::clamp(std::ceil((range.from[a] - centre) / h - 1e-9), 0.0, cells));
-    columns.upper[a] = static_cast<int>(
-        std::clamp(std::floor((range.to[a] - centre) / h + 1e-9) + 1.0, 0.0, cells));
+    const double nothing = 1e-9 * grid.spacing()[a];
+    int first = 0, last = 0;
+    for (Index<D> cell{}; cell[a] < grid.cells()[a]; ++cell[a]) {
+      const double centre = grid.cell_centre(cell)[a];
+      if (centre < range.from[a] - nothing) first = cell[a] + 1;
+      if (centre <= range.to[a] + nothing) last = cell[a] + 1;
+    }
+    columns.lower[a] = first, columns.upper[a] = std::max(first, last);
     wide *= static_cast<std::size_t>(std::max(0, columns.upper[a] - columns.lower[a]));
   }
   const int high = grid.partition().processes[up], place = grid.partition().place[up];
@@ -195,7 +204,9 @@ double potential_energy(const Grid<D>& grid, const CellField<D>& water,
       if (cut)
         centre = centre_of_water(
             plane_of_volume<D>(interface_normal<D>(here, strides.data()), alpha), axis);
-      sum -= gravity * water[cell] * (cell[axis] + centre) * grid.spacing()[axis];
+      const double height = grid.face_position(axis, cell[axis]) - grid.lower()[axis] +
+                            centre * grid.width(axis, cell[axis]);
+      sum -= gravity * water[cell] * height;
     }
   });
   return density * grid.cell_volume() * sum_over_ranks(grid, sum);

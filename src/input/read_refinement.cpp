@@ -29,24 +29,25 @@ Region read_region(Section section, const DomainOptions& domain) {
   const std::string extent = fmt::format("the domain reaches from {:g} to {:g} m along {}", lower,
                                          upper, names[axis].name);
   Refinement r;
-  r.from = section.number("from", quantity::length,
-                          {.lower = lower, .upper = upper, .upper_included = false, .reason = extent});
+  r.from =
+      section.number("from", quantity::length,
+                     {.lower = lower, .upper = upper, .upper_included = false, .reason = extent});
   r.to = section.number("to", quantity::length,
                         {.lower = std::max(lower, r.from),
                          .upper = upper,
-.lower_included = false,
+                         .lower_included = false,
                          .reason = extent + ", and a region ends after its beginning"});
   const double coarse = (upper - lower) / domain.cells[axis];
   r.size = section.number("cell_size", quantity::length,
                           {.lower = 0.0,
                            .upper = coarse,
-.lower_included = false,
+                           .lower_included = false,
                            .reason = fmt::format("cells elsewhere are {:.4g} m", coarse),
                            .cure = "A refinement has smaller cells."});
   r.growth = section.number("growth", quantity::number,
                             {.lower = 1.0,
                              .upper = largest_growth,
-.lower_included = false,
+                             .lower_included = false,
                              .reason = "the ratio of neighbouring cells outside the region"},
                             1.1);
   section.finish();
@@ -67,10 +68,10 @@ bool apart(std::vector<Region*>& regions) {
   });
   for (std::size_t i = 1; i < regions.size(); ++i)
     if (regions[i]->refinement.from < regions[i - 1]->refinement.to) {
-      regions[i]->section.fail(
-          "from", fmt::format("another region of this axis reaches to {:g} m",
-                              regions[i - 1]->refinement.to),
-          "Let one end where the next begins.");
+      regions[i]->section.fail("from",
+                               fmt::format("another region of this axis reaches to {:g} m",
+                                           regions[i - 1]->refinement.to),
+                               "Let one end where the next begins.");
       return false;
     }
   return true;
@@ -93,9 +94,9 @@ void read_refinements(Section& section, DomainOptions& domain, bool domain_known
     if (here.empty() || !apart(here)) continue;
     std::vector<Refinement> refinements;
     for (const Region* region : here) refinements.push_back(region->refinement);
-    domain.faces[a] = graded_faces(domain.lower[a], domain.upper[a],
-                                   (domain.upper[a] - domain.lower[a]) / domain.cells[a],
-                                   refinements);
+    domain.faces[a] =
+        graded_faces(domain.lower[a], domain.upper[a],
+                     (domain.upper[a] - domain.lower[a]) / domain.cells[a], refinements);
     domain.cells[a] = static_cast<int>(domain.faces[a].size()) - 1;
   }
 }

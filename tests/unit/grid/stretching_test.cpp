@@ -21,11 +21,13 @@ double largest_ratio(const std::vector<double>& faces) {
 TEST(GradedFaces, AreThoseOfAUniformAxisWithoutRegions) {
   const auto faces = graded_faces(1.0, 3.0, 0.25, {});
   ASSERT_EQ(faces.size(), 9u);
-  for (std::size_t i = 0; i < faces.size(); ++i) EXPECT_NEAR(faces[i], 1.0 + 0.25 * static_cast<double>(i), 1e-9);
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    EXPECT_NEAR(faces[i], 1.0 + 0.25 * static_cast<double>(i), 1e-9);
 }
 
 TEST(GradedFaces, HaveTheWantedSizeInARegionAndGrowNoFasterThanAskedAway) {
-  const auto faces = graded_faces(0.0, 20.0, 0.5, {{8.0, 10.0, 0.05, 1.1}, {14.0, 15.0, 0.1, 1.15}});
+  const auto faces =
+      graded_faces(0.0, 20.0, 0.5, {{8.0, 10.0, 0.05, 1.1}, {14.0, 15.0, 0.1, 1.15}});
   EXPECT_EQ(faces.front(), 0.0);
   EXPECT_EQ(faces.back(), 20.0);
   for (const double end : {8.0, 10.0, 14.0, 15.0})
