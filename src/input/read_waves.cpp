@@ -2,22 +2,28 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "base/errors.hpp"
+#include "flow/sea_components.hpp"
 #include "input/sections.hpp"
 
 namespace mudlark {
 namespace {
 
-enum class Kind { regular, solitary, irregular, given, still };
+enum class Kind { regular, solitary, irregular, focused, given, still, sponge };
 
 RegularWave read_regular(Section& section) {
   RegularWave wave;
   wave.height = section.number("height", quantity::length,
                                positive("a wave has a height above 0, from trough to crest"));
   wave.period = section.number("period", quantity::time, positive("a wave has a period above 0"));
-  wave.stream_function =
-      section.choice<bool>("theory", {{"stream-function", true}, {"linear", false}}, true);
+  wave.theory = section.choice<RegularTheory>("theory",
+                                              {{"stream-function", RegularTheory::stream_function},
+                                               {"stokes-5", RegularTheory::stokes_5},
+                                               {"cnoidal", RegularTheory::cnoidal},
+                                               {"linear", RegularTheory::linear}},
+                                              wave.theory);
   return wave;
 }
 
@@ -30,21 +36,34 @@ SolitaryWave read_solitary(Section& section) {
 }
 
 IrregularSea read_irregular(Section& section) {
-  IrregularSea sea;
-  sea.significant_height =
-      section.number("significant_height", quantity::length, positive("H_m0 lies above 0"));
-  sea.peak_period =
-      section.number("peak_period", quantity::time, positive("a period lies above 0"));
-  sea.peak_enhancement = section.number(
-      "peak_enhancement", quantity::number,
-      {.lower = 1.0, .upper = 10.0, .reason = "gamma of JONSWAP; 1 is Pierson-Moskowitz"},
-      sea.peak_enhancement);
-  sea.components = section.integer(
-      "components", {.lower = 1.0, .upper = 5000.0, .reason = "the number of linear waves"},
-      sea.components);
-  sea.seed = static_cast<std::uint64_t>(section.integer(
-      "seed", {.lower = 0.0, .upper = 2e9, .reason = "the same seed gives the same sea"}, 1));
-  return sea;
+  IrregularSea wave;
+  wave.sea = read_sea(section, true);
+  const bool given = wave.sea.spectrum.form == SpectrumForm::given;
+  const bool readable = given && !wave.sea.spectrum.table.empty();
+  wave.significant_height =
+      section.number("significant_height", quantity::length, positive("H_m0 lies above 0"),
+                     readable ? std::optional<double>(significant_height(wave.sea.spectrum))
+                     : given  ? std::optional<double>(1.0)
+                              : std::nullopt);
+  return wave;
+}
+
+/// focus in coordinates of the case; the zone is known.
+FocusedWave read_focused(Section& section, const WaveZoneOptions& zone) {
+  FocusedWave wave;
+  wave.sea = read_sea(section, false);
+  wave.crest_height =
+      section.number("crest_height", quantity::length, positive("the crest rises above 0"));
+  wave.time = section.number("focus_time", quantity::time, {});
+  const bool space = section.reading().dimension == 3;
+  const std::vector<double> focus =
+      space ? section.numbers("focus", quantity::length, 2)
+            : std::vector<double>{section.number("focus", quantity::length, {})};
+  if (focus.size() != (space ? 2u : 1u)) return wave;
+  const auto axis = static_cast<std::size_t>(zone.axis);
+  const double inwards = zone.inner > zone.outer ? 1.0 : -1.0;
+  wave.focus = {inwards * (focus[space ? axis : 0] - zone.outer), space ? focus[1 - axis] : 0.0};
+  return wave;
 }
 
 GivenWave read_given(Section& section) {
@@ -55,26 +74,6 @@ GivenWave read_given(Section& section) {
   wave.has_velocity = section.has("velocity");
   if (wave.has_velocity) wave.velocity = section.varying("velocity", quantity::velocity, {});
   return wave;
-}
-
-WaveKind read_kind(Section& section) {
-  switch (section.choice<Kind>("type", {{"regular", Kind::regular},
-                                        {"solitary", Kind::solitary},
-                                        {"irregular", Kind::irregular},
-                                        {"given", Kind::given},
-                                        {"still", Kind::still}})) {
-    case Kind::regular:
-      return read_regular(section);
-    case Kind::solitary:
-      return read_solitary(section);
-    case Kind::irregular:
-      return read_irregular(section);
-    case Kind::given:
-      return read_given(section);
-    case Kind::still:
-      break;
-  }
-  return StillWater{};
 }
 
 /// zone = { outer = .., inner = .., axis = "x" }
@@ -91,18 +90,71 @@ void read_zone(Section& wave, WaveZoneOptions& zone) {
   section.finish();
 }
 
+WaveKind read_kind(Section& section, WaveZoneOptions& zone) {
+  switch (section.choice<Kind>("type", {{"regular", Kind::regular},
+                                        {"solitary", Kind::solitary},
+                                        {"irregular", Kind::irregular},
+                                        {"focused", Kind::focused},
+                                        {"given", Kind::given},
+                                        {"still", Kind::still},
+                                        {"sponge", Kind::sponge}})) {
+    case Kind::regular:
+      return read_regular(section);
+    case Kind::solitary:
+      return read_solitary(section);
+    case Kind::irregular:
+      return read_irregular(section);
+    case Kind::focused:
+      return read_focused(section, zone);
+    case Kind::given:
+      return read_given(section);
+    case Kind::still:
+      break;
+    case Kind::sponge:
+      zone.action = ZoneAction::velocity;
+      zone.damping = section.number("damping", quantity::rate,
+                                    positive("the rate at which motion fades at the outer end",
+                                             "Some five times the wave's frequency 2 pi/T."));
+  }
+  return StillWater{};
+}
+
+/// Where waves come from and what carries them.
+void read_setting(Section& section, WaveZoneOptions& zone) {
+  const bool made = !std::holds_alternative<StillWater>(zone.wave);
+  if (section.reading().dimension == 3 && made) {
+    const double degrees =
+        section.number("direction", quantity::angle,
+                       {.lower = -80.0,
+                        .upper = 80.0,
+                        .reason = "the angle to the zone's axis, towards the other horizontal axis",
+                        .cure = "Turn the zone (axis = ...) for waves along it."},
+                       0.0);
+    zone.direction = degrees * std::numbers::pi / 180.0;
+  } else {
+    section.forbid("direction", made ? "in the plane waves go along x" : "no wave is made here");
+  }
+  if (std::holds_alternative<GivenWave>(zone.wave))
+    section.forbid("current", "it is part of the given velocity");
+  else
+    zone.current = section.number("current", quantity::velocity, {}, 0.0);
+}
+
 void check_wave(Section& section, const WaveZoneOptions& zone, double gravity, std::size_t before) {
   if (section.reading().report.size() != before || gravity <= 0.0) return;
   try {
-    const WaveMotion motion = make_wave(zone.wave, zone.depth, gravity);
-    const auto* regular = std::get_if<RegularWave>(&zone.wave);
-    if (regular && std::abs(zone.inner - zone.outer) < 0.5 * motion.length)
+    const auto motion = make_wave(zone, gravity);
+    const bool periodic = std::holds_alternative<RegularWave>(zone.wave) ||
+                          std::holds_alternative<IrregularSea>(zone.wave) ||
+                          std::holds_alternative<FocusedWave>(zone.wave);
+    const double length = std::abs(zone.inner - zone.outer);
+    if (periodic && length < 0.5 * motion->length())
       section.fail("zone",
                    fmt::format("it is {:.4g} m long, less than half of the wave of {:.4g} m",
-                               std::abs(zone.inner - zone.outer), motion.length),
+                               length, motion->length()),
                    "Make it one wave long.");
   } catch (const InputError& error) {
-    section.fail("height", error.what());
+    section.fail(section.has("height") ? "height" : "type", error.what());
   }
 }
 
@@ -121,14 +173,15 @@ void read_waves(Section& root, CaseOptions& options) {
     const std::size_t before = section.reading().report.size();
     WaveZoneOptions zone;
     zone.name = read_name(section, names);
-    zone.wave = read_kind(section);
     read_zone(section, zone);
+    zone.wave = read_kind(section, zone);
     zone.still_level = section.number("still_level", quantity::length, {});
     zone.depth = section.number("depth", quantity::length,
                                 positive("waves need water; the depth lies above 0"),
                                 zone.still_level - options.domain.lower[up]);
     zone.ramp = section.number("ramp", quantity::time,
                                not_negative("the time over which the wave grows"), 0.0);
+    read_setting(section, zone);
     if (gravity <= 0.0) section.fail("type", "waves need gravity, and it does not point down here");
     check_wave(section, zone, gravity, before);
     section.finish();

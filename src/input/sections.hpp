@@ -70,6 +70,8 @@ void check_settled_void_ratio(Section& section, double porosity, const SanisandO
 SoilLawOptions read_umat(Section& law);
 /// [[wave]]: after [domain] and [water].
 void read_waves(Section& root, CaseOptions& options);
+/// Spectrum, number and directions of the components of a sea; `random`: their phases are.
+SeaComponents read_sea(Section& wave, bool random);
 /// [[solid]]: after [[water.body]] and [[soil]].
 void read_solids(Section& root, CaseOptions& options);
 void read_loads(Section& root, CaseOptions& options);

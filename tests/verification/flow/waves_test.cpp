@@ -35,7 +35,7 @@ double level_at(FlowRun<2>& run, double x) {
 // The crest starts 6 m before the flume and passes x = 9 m after 15 m of its way.
 TEST(Waves, ASolitaryWaveKeepsItsHeightAndSpeed) {
   const SolitaryWave wave{0.05, -6.0};
-  const double speed = make_wave(wave, 0.5, 9.81).celerity;
+  const double speed = make_wave(wave, {.depth = 0.5})->celerity();
   FlowRun<2> run(Flume<2>::domain(), Flume<2>::options(wave, 4.0));
   double highest = 0.0, when = 0.0, before = 0.0, last = 0.0;
   const double dt = 0.01;
@@ -62,7 +62,7 @@ TEST(Waves, ASolitaryWaveKeepsItsHeightAndSpeed) {
 TEST(Waves, TheBeachTakesASolitaryWaveAway) {
   const SolitaryWave wave{0.05, 0.0};
   FlowRun<2> run(Flume<2>::domain(), Flume<2>::options(wave, 4.0));
-  const double speed = make_wave(wave, 0.5, 9.81).celerity;
+  const double speed = make_wave(wave, {.depth = 0.5})->celerity();
   while (run.time < 22.0 / speed) run.step(std::min(0.01, run.flow.stable_step(run.medium)));
   double largest = 0.0;  // the wave would be on its way back, between 10 and 6 m
   for (double x = 4.05; x < 12.0; x += 0.1) largest = std::max(largest, std::abs(level_at(run, x)));
@@ -72,7 +72,7 @@ TEST(Waves, TheBeachTakesASolitaryWaveAway) {
 
 // Not to the last digit: the sweeps of the interface go through three axes in turn, not two.
 TEST(Waves, InThreeDimensionsAreThoseOfThePlane) {
-  const RegularWave wave{0.04, 1.5, true};
+  const RegularWave wave{0.04, 1.5};
   FlowRun<2> plane(Flume<2>::domain(), Flume<2>::options(wave, 4.0));
   FlowRun<3> space(Flume<3>::domain(), Flume<3>::options(wave, 4.0));
   for (int step = 0; step < 40; ++step) {
