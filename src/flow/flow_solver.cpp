@@ -50,7 +50,9 @@ FlowSolver<D>::FlowSolver(const Grid<D>& grid, const FlowOptions& options)
       flux_(grid, "flux", "m/s"),
       carried_(grid, "carried water", "1"),
       mobility_(grid, "mobility", "m2 s/kg"),
-      wall_friction_(grid, "wall friction", "Pa s/m2") {}
+      wall_friction_(grid, "wall friction", "Pa s/m2") {
+  if (options.gas) gas_.emplace(grid, options);
+}
 
 /// Ghosts and what follows from W, theta and v.
 template <int D>
@@ -104,11 +106,12 @@ void FlowSolver<D>::fill_with_bodies() {
       Vec<D> half;
       for (int a = 0; a < D; ++a)
         half[a] = 0.5 * (a == axis ? grid.gap(a, face[a]) : grid.width(a, face[a]));
+      const auto component = static_cast<std::size_t>(D == 2 && axis == 1 ? 2 : axis);
+      if (gas_) velocity_[axis][face] = options_.gas->velocity[component](to_point3(centre), 0.0);
       for (const WaterBody& body : options_.bodies) {
         // A face belongs to a body that reaches into one of its cells.
         const double touched =
             fraction_inside(body.shape, to_point3(centre - half), to_point3(centre + half), D);
-        const auto component = static_cast<std::size_t>(D == 2 && axis == 1 ? 2 : axis);
         if (touched > 0.0) velocity_[axis][face] = body.velocity[component](to_point3(centre), 0.0);
       }
     });
@@ -127,8 +130,19 @@ void FlowSolver<D>::initialise(const PorousMedium<D>& medium) {
   initial_volume_ = ledger().present;
   outflow_ = time_ = 0.0;
   step_ = 0;
-  projection_.find_surface(water_, porosity_, saturation_, interface_);
+  find_unknowns();
   project_start(medium);
+}
+
+/// Where pressure acts, for the present water: in the water up to its surface, or everywhere.
+template <int D>
+void FlowSolver<D>::find_unknowns() {
+  if (gas_) {
+    gas_->find_mixture(water_, porosity_, saturation_);
+    projection_.cover_all(porosity_, gas_->find_reference(saturation_));
+  } else {
+    projection_.find_surface(water_, porosity_, saturation_, interface_);
+  }
 }
 
 /// First the given velocity is made free of divergence (its pressure is an impulse and is thrown
@@ -138,18 +152,29 @@ template <int D>
 void FlowSolver<D>::project_start(const PorousMedium<D>& medium) {
   const Grid<D>& grid = *grid_;
   find_target(medium, 0.0);
-  for (int a = 0; a < D; ++a) mobility_[a].fill(1.0 / options_.density);
-  if (max_speed().speed > 0.0) {
+  for (int a = 0; a < D; ++a) {
+    mobility_[a].fill(1.0 / options_.density);
+    if (!gas_) continue;
+    const double* rho = gas_->mixture().density[a].data();
+    double* m = mobility_[a].data();
+    for_each_offset(grid, bounding_faces(grid, a),
+                    [&](std::ptrdiff_t at) { m[at] = 1.0 / rho[at]; });
+  }
+  if (gas_ || max_speed().speed > 0.0) {
     last_solve_ = projection_.project(capacity_, mobility_, target_, no_storage_, pressure_,
                                       velocity_, options_.pressure_tolerance);
     pressure_.fill(0.0);
   }
-  extension_.extend(projection_.unknown(), water_, porosity_, velocity_);
+  if (gas_)
+    ghosts_.update_velocity(velocity_);
+  else
+    extension_.extend(projection_.unknown(), water_, porosity_, velocity_);
   double round_off = 1e-300;  // what cancellation leaves of the divergence under the deepest water
   for (int a = 0; a < D; ++a) {
     round_off = std::max(
         round_off, 4e-15 * grid.cells()[a] * std::abs(grid.gravity()[a]) / grid.smallest_spacing());
     flux_[a].fill(grid.gravity()[a]);
+    if (gas_) flux_[a].copy_values_from(gas_->mixture().acceleration[a]);
   }
   for (int a = 0; a < D; ++a) {  // no flow through closed walls
     for (int side = 0; side < 2; ++side)
@@ -196,15 +221,23 @@ void FlowSolver<D>::find_target(const PorousMedium<D>& medium, double dt) {
   }
 }
 
-/// Water, porosity and momentum over dt with the present velocity. Cells without a pressure unknown
-/// take the medium's porosity as it is: there the dilation term is zero, so nothing is lost or
-/// gained.
+/// Cells whose contents keep their volume: porosity moves with what passes through them.
+template <int D>
+bool FlowSolver<D>::incompressible(double water, double porosity) const {
+  return InterfaceAdvection<D>::dilates(water, porosity) || (gas_ && !gas_->compressible());
+}
+
+/// Water, porosity and momentum over dt with the present velocity. Cells that may change their
+/// volume (void, or gas that gives way) take the medium's porosity as it is: there the dilation
+/// term is zero, so nothing is lost or gained.
 template <int D>
 void FlowSolver<D>::transport(const PorousMedium<D>& medium, double dt) {
   const Grid<D>& grid = *grid_;
   find_flux();
   old_water_.copy_values_from(water_);
-  interface_.sweep(water_, porosity_, flux_, dt, step_, Spray::mixed);
+  if (gas_) gas_->begin(water_, porosity_);
+  // Spray in gas keeps its planes: mixed, it would spread through the gas as mist.
+  interface_.sweep(water_, porosity_, flux_, dt, step_, gas_ ? Spray::sharp : Spray::mixed);
   move_porosity(grid, porosity_, flux_, dt, new_porosity_);
   const double* w = old_water_.data();
   const double* theta = porosity_.data();
@@ -212,7 +245,7 @@ void FlowSolver<D>::transport(const PorousMedium<D>& medium, double dt) {
   const double* volume = medium.space.volume.data();
   double* moved = new_porosity_.data();
   for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) {
-    if (!InterfaceAdvection<D>::dilates(w[at], theta[at])) moved[at] = volume[at] * given[at];
+    if (!incompressible(w[at], theta[at])) moved[at] = volume[at] * given[at];
   });
   interface_.follow_porosity(water_, porosity_, new_porosity_);
   check_bounds();
@@ -222,7 +255,11 @@ void FlowSolver<D>::transport(const PorousMedium<D>& medium, double dt) {
   find_capacity(medium);
   carried_.copy_values_from(interface_.water_flux());
   ghosts_.exchange(carried_);
-  if (options_.advection) momentum_.advance(old_water_, water_, porosity_, carried_, velocity_);
+  if (!options_.advection) return;
+  if (gas_)
+    gas_->move_momentum(water_, porosity_, flux_, carried_, dt, momentum_, velocity_);
+  else
+    momentum_.advance(Inertia::water, old_water_, water_, porosity_, carried_, velocity_);
 }
 
 template <int D>
@@ -231,15 +268,20 @@ void FlowSolver<D>::advance(const PorousMedium<D>& medium, double dt) {
   transport(medium, dt);
   if (!waves_.empty()) make_waves(dt);
   update_derived();
-  projection_.find_surface(water_, porosity_, saturation_, interface_);
+  find_unknowns();
   if (options_.wall_law == WallLaw::werner_wengle)
     find_wall_friction(*grid_, options_, water_, velocity_, wall_friction_);
-  predictor_.advance(medium, porosity_, capacity_, wall_friction_, dt, velocity_, mobility_);
+  predictor_.advance(medium, porosity_, capacity_, wall_friction_, dt,
+                     gas_ ? &gas_->mixture() : nullptr, velocity_, mobility_);
   find_target(medium, dt);
-  last_solve_ = projection_.project(capacity_, mobility_, target_, medium.give_way, pressure_,
-                                    velocity_, options_.pressure_tolerance / dt);
+  const bool gas_gives_way = gas_ && gas_->compressible();
+  const CellField<D>& give_way =
+      gas_gives_way ? gas_->with_gas_storage(medium.give_way, water_, porosity_, dt)
+                    : medium.give_way;
+  last_solve_ = projection_.project(capacity_, mobility_, target_, give_way, pressure_, velocity_,
+                                    options_.pressure_tolerance / dt);
   ghosts_.update_velocity(velocity_);
-  extension_.extend(projection_.unknown(), water_, porosity_, velocity_);
+  if (!gas_) extension_.extend(projection_.unknown(), water_, porosity_, velocity_);
   check_finite();
   step_ += 1;
   time_ += dt;
@@ -278,7 +320,8 @@ double FlowSolver<D>::courant_rate() const {
   const double* theta = porosity_.data();
   double fastest = 0.0;
   for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) {
-    const bool all = InterfaceAdvection<D>::dilates(w[at], theta[at]), wet = w[at] > nothing;
+    const bool all = gas_ || InterfaceAdvection<D>::dilates(w[at], theta[at]);
+    const bool wet = gas_ || w[at] > nothing;
     double in = 0.0, out = 0.0;
     for (int axis = 0; axis < D; ++axis) {
       const std::ptrdiff_t s = grid.stride(axis);
@@ -306,6 +349,9 @@ double FlowSolver<D>::stable_step(const PorousMedium<D>&) const {
     step = std::min(step, 2.0 * options_.courant * std::sqrt(h / (std::numbers::pi * gravity)));
   if (options_.viscosity > 0.0)
     step = std::min(step, h * h * options_.density / (6.0 * options_.viscosity));
+  // At the surface a face may be lighter than the edges beside it are viscous: up to four times.
+  if (gas_ && options_.gas->viscosity > 0.0)
+    step = std::min(step, h * h * options_.gas->density / (24.0 * options_.gas->viscosity));
   return step;
 }
 

@@ -7,7 +7,8 @@
 ///   1. the present velocity, free of divergence, moves water, porosity and momentum;
 ///   2. gravity, viscosity and drag act;
 ///   3. pressure makes the velocity free of divergence again on the new water;
-///   4. the velocity is extended beyond the surface.
+///   4. the velocity is extended beyond the surface, where that is a void. A gas is computed with
+///      the water (flow/two_fluids.hpp): steps 1 to 3 are those of both.
 /// So at the end of a step surface, velocity and pressure belong to the same time, and the bound
 /// that stable_step() gives is exact for the transport that follows.
 #include <cstdint>
@@ -17,6 +18,7 @@
 #include "flow/porous_medium.hpp"
 #include "flow/predictor.hpp"
 #include "flow/projection.hpp"
+#include "flow/two_fluids.hpp"
 #include "numerics/interface_advection.hpp"
 #include "numerics/momentum_transport.hpp"
 #include "numerics/velocity_extension.hpp"
@@ -53,7 +55,7 @@ class FlowSolver {
   /// longer finite.
   void advance(const PorousMedium<D>& medium, double dt);
 
-  const CellField<D>& pressure() const { return pressure_; }      ///< [Pa], 0 in air
+  const CellField<D>& pressure() const { return pressure_; }      ///< [Pa], above that of still air
   const CellField<D>& saturation() const { return saturation_; }  ///< alpha = W / theta [-]
   const CellField<D>& water_fraction() const {
     return water_;
@@ -106,6 +108,8 @@ class FlowSolver {
   void add_outflow();
   void make_waves(double dt);
   void project_start(const PorousMedium<D>& medium);
+  void find_unknowns();
+  bool incompressible(double water, double porosity) const;
   void check_bounds() const;
   void check_finite() const;
   double courant_rate() const;
@@ -120,6 +124,7 @@ class FlowSolver {
   Projection<D> projection_;
   VelocityExtension<D> extension_;
   WaveZones<D> waves_;
+  std::optional<TwoFluids<D>> gas_;
   CellField<D> water_, porosity_, pressure_, saturation_;
   FaceVector<D> velocity_;
   CellField<D> old_water_, new_porosity_, target_, no_storage_;

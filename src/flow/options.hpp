@@ -34,9 +34,18 @@ struct PorousGround {
 /// velocities; werner_wengle: where that row lies beyond the viscous sublayer, the 1/7 power law.
 enum class WallLaw { resolved, werner_wengle };
 
+/// The second fluid, where air counts.
+struct Gas {
+  double density = 1.2;                ///< [kg/m3]
+  double viscosity = 1.8e-5;           ///< dynamic, [Pa s]
+  std::optional<double> bulk_modulus;  ///< [Pa]; without it the gas keeps its volume
+  std::array<Varying, 3> velocity{};   ///< at the start, outside the bodies of water [m/s]
+};
+
 struct FlowOptions {
   double density = 1000.0;      ///< [kg/m3]
   double viscosity = 1.002e-3;  ///< dynamic, [Pa s]
+  std::optional<Gas> gas;       ///< without it there is a void at zero pressure beside the water
   std::vector<WaterBody> bodies;
   std::vector<PorousGround> porous;
   double courant = 0.4;  ///< of the interface's Courant number bound (NUMERICS B2)

@@ -12,6 +12,9 @@ Predictor<D>::Predictor(const Grid<D>& grid, const FlowOptions& options)
     : grid_(&grid),
       density_(options.density),
       viscosity_(options.viscosity),
+      gas_density_(options.gas ? options.gas->density : 0.0),
+      gas_viscosity_(options.gas ? options.gas->viscosity : 0.0),
+      viscous_(grid),
       acceleration_(grid, "viscous acceleration", "m/s2") {
   const auto inverse_square = [](double length) { return 1.0 / (length * length); };
   for (int a = 0; a < D; ++a) {
@@ -84,44 +87,92 @@ double seepage_squared(const Grid<D>& grid, int component, const FaceVector<D>& 
   return square * porosity * porosity;
 }
 
+/// Water alone: the same density and weight on all faces.
+struct WaterAlone {
+  double mass, gravity;
+  double density(std::ptrdiff_t) const { return mass; }
+  double weight(std::ptrdiff_t) const { return gravity; }
+};
+
+/// Water and gas: density and weight face by face.
+struct WaterAndGas {
+  const double *mass, *acceleration;
+  double density(std::ptrdiff_t at) const { return mass[at]; }
+  double weight(std::ptrdiff_t at) const { return acceleration[at]; }
+};
+
 }  // namespace
 
+/// Viscous acceleration of all components, and in `mobility` the resistance R for a while: both
+/// need the old velocity of all components.
 template <int D>
-void Predictor<D>::advance(const PorousMedium<D>& medium, const CellField<D>& porosity,
-                           const FaceVector<D>& capacity, const FaceVector<D>& wall_friction,
-                           double dt, FaceVector<D>& velocity, FaceVector<D>& mobility) {
+void Predictor<D>::find_forces(const PorousMedium<D>& medium, const CellField<D>& porosity,
+                               const FaceVector<D>& capacity, const Mixture<D>* mixture,
+                               const FaceVector<D>& velocity, FaceVector<D>& resistance) {
   const Grid<D>& grid = *grid_;
   for (int a = 0; a < D; ++a) {
-    double* out = acceleration_[a].data();
-    find_viscous_acceleration(a, porosity.data(), velocity[a].data(), out);
-    // The resistance R goes into mobility first: it needs the old velocity of all components.
+    double* viscous = acceleration_[a].data();
+    const double* rho = mixture ? mixture->density[a].data() : nullptr;
+    if (mixture) {
+      viscous_.find(a, mixture->viscosity, porosity, velocity, acceleration_[a]);
+      for_each_offset(grid, bounding_faces(grid, a),
+                      [&](std::ptrdiff_t at) { viscous[at] /= rho[at]; });
+    } else {
+      find_viscous_acceleration(a, porosity.data(), velocity[a].data(), viscous);
+    }
     const double* theta = capacity[a].data();
     const double* aperture = medium.space.aperture[a].data();
     const double* linear = medium.linear_drag[a].data();
     const double* quadratic = medium.quadratic_drag[a].data();
-    double* m = mobility[a].data();
+    double* r = resistance[a].data();
     for_each_offset(grid, bounding_faces(grid, a), [&](std::ptrdiff_t at) {
       const double open = aperture[at] > 0.0 ? theta[at] / aperture[at] : 1.0;  // n_f
+      const double wet = mixture ? water_share(rho[at]) : 1.0;
       double loss = linear[at];
-      if (quadratic[at] > 0.0)
-        loss += quadratic[at] *
+      if (wet < 1.0 && loss > 0.0) loss *= wet + (1.0 - wet) * gas_viscosity_ / viscosity_;
+      if (quadratic[at] > 0.0) {
+        const double inertia = wet < 1.0 ? quadratic[at] * rho[at] / density_ : quadratic[at];
+        loss += inertia *
                 std::sqrt(seepage_squared(grid, a, velocity, medium.grain_velocity, open, at));
-      m[at] = open * loss;
+      }
+      r[at] = open * loss;
     });
   }
+}
+
+template <int D>
+double Predictor<D>::water_share(double density) const {
+  return density_ > gas_density_
+             ? std::clamp((density - gas_density_) / (density_ - gas_density_), 0.0, 1.0)
+             : 1.0;
+}
+
+template <int D>
+void Predictor<D>::advance(const PorousMedium<D>& medium, const CellField<D>& porosity,
+                           const FaceVector<D>& capacity, const FaceVector<D>& wall_friction,
+                           double dt, const Mixture<D>* mixture, FaceVector<D>& velocity,
+                           FaceVector<D>& mobility) {
+  const Grid<D>& grid = *grid_;
+  find_forces(medium, porosity, capacity, mixture, velocity, mobility);
   for (int a = 0; a < D; ++a) {
-    const double gravity = grid.gravity()[a];
     const double* viscous = acceleration_[a].data();
     const double* grains = medium.grain_velocity[a].data();
     const double* friction = wall_friction[a].data();
     double* v = velocity[a].data();
     double* m = mobility[a].data();
-    for_each_offset(grid, bounding_faces(grid, a), [&](std::ptrdiff_t at) {
-      const double resistance = m[at];
-      m[at] = dt / (density_ + dt * (resistance + friction[at]));
-      v[at] = (density_ * (v[at] + dt * (gravity + viscous[at])) + dt * resistance * grains[at]) *
-              (m[at] / dt);
-    });
+    const auto push = [&](const auto& fluid) {
+      for_each_offset(grid, bounding_faces(grid, a), [&](std::ptrdiff_t at) {
+        const double resistance = m[at], rho = fluid.density(at);
+        m[at] = dt / (rho + dt * (resistance + friction[at]));
+        v[at] =
+            (rho * (v[at] + dt * (fluid.weight(at) + viscous[at])) + dt * resistance * grains[at]) *
+            (m[at] / dt);
+      });
+    };
+    if (mixture)
+      push(WaterAndGas{mixture->density[a].data(), mixture->acceleration[a].data()});
+    else
+      push(WaterAlone{density_, grid.gravity()[a]});
     for (int side = 0; side < 2; ++side) {
       if (!grid.touches(a, side) || grid.wall(a, side) == Wall::open) continue;
       IndexBox<D> wall = grid.owned();

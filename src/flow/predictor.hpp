@@ -2,6 +2,8 @@
 /// Forces on the water other than pressure: gravity, viscosity, drag of the grains.
 #include "flow/options.hpp"
 #include "flow/porous_medium.hpp"
+#include "flow/two_fluids.hpp"
+#include "flow/viscous_force.hpp"
 
 namespace mudlark {
 
@@ -15,19 +17,26 @@ class Predictor {
   /// s/kg]: what a unit pressure gradient changes v by. Drag is implicit in v with |w| of the start
   /// of the step. Ghosts of all inputs valid; afterwards ghosts of velocity are stale; mobility
   /// holds on owned and bounding faces.
+  /// With a mixture, density, weight and viscosity are its own, and drag is that of its share of
+  /// water and gas: A is proportional to viscosity, B to density.
   void advance(const PorousMedium<D>& medium, const CellField<D>& porosity,
                const FaceVector<D>& capacity, const FaceVector<D>& wall_friction, double dt,
-               FaceVector<D>& velocity, FaceVector<D>& mobility);
+               const Mixture<D>* mixture, FaceVector<D>& velocity, FaceVector<D>& mobility);
 
  private:
+  void find_forces(const PorousMedium<D>& medium, const CellField<D>& porosity,
+                   const FaceVector<D>& capacity, const Mixture<D>* mixture,
+                   const FaceVector<D>& velocity, FaceVector<D>& resistance);
+  double water_share(double density) const;
   void find_viscous_acceleration(int component, const double* porosity, const double* velocity,
                                  double* out) const;
 
   const Grid<D>* grid_;
-  double density_, viscosity_;
+  double density_, viscosity_, gas_density_, gas_viscosity_;
   /// 1/d^2 [1/m2] by local index along each axis, d the width of a cell and the distance between
   /// the centres of the cells beside a face.
   std::array<std::vector<double>, D> across_cell_, across_face_;
+  ViscousForce<D> viscous_;
   FaceVector<D> acceleration_;
 };
 

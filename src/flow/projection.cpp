@@ -80,6 +80,14 @@ double Projection<D>::in_mean_cells(double xi, std::ptrdiff_t wet, int axis, int
   return (inside + beyond) / grid.spacing()[axis];
 }
 
+/// Distance between the centres of the cells beside a face.
+template <int D>
+double Projection<D>::in_mean_cells(std::ptrdiff_t face, int axis) const {
+  const Grid<D>& grid = *grid_;
+  if (!grid.stretched(axis)) return 1.0;
+  return grid.gap(axis, grid.index_along(axis, face)) / grid.spacing()[axis];
+}
+
 template <int D>
 void Projection<D>::find_surface(const CellField<D>& water, const CellField<D>& porosity,
                                  const CellField<D>& alpha,
@@ -98,15 +106,32 @@ void Projection<D>::find_surface(const CellField<D>& water, const CellField<D>& 
       const bool above = unknown[at] > 0.0, below = unknown[at - s] > 0.0;
       double& here = distance_here[at];
       if (above && below)
-        here = grid.stretched(axis)
-                   ? grid.gap(axis, grid.index_along(axis, at)) / grid.spacing()[axis]
-                   : 1.0;
+        here = in_mean_cells(at, axis);
       else if (below)
         here = in_mean_cells(distance(alpha.data(), at - s, axis, 1, interface), at - s, axis, 1);
       else if (above)
         here = in_mean_cells(distance(alpha.data(), at, axis, -1, interface), at, axis, -1);
       else
         here = 0.0;
+    });
+  }
+  find_wall_distances();
+}
+
+template <int D>
+void Projection<D>::cover_all(const CellField<D>& porosity, const CellField<D>& reference) {
+  const Grid<D>& grid = *grid_;
+  const double* theta = porosity.data();
+  double* unknown = unknown_.data();
+  reference_ = &reference;
+  for_each_offset(grid, grid.local(),
+                  [&](std::ptrdiff_t at) { unknown[at] = theta[at] > 0.0 ? 1.0 : 0.0; });
+  for (int axis = 0; axis < D; ++axis) {
+    const std::ptrdiff_t s = grid.stride(axis);
+    double* distance_here = distance_[axis].data();
+    for_each_offset(grid, bounding_faces(grid, axis), [&](std::ptrdiff_t at) {
+      const bool joined = unknown[at] * unknown[at - s] > 0.0;
+      distance_here[at] = joined ? in_mean_cells(at, axis) : 0.0;
     });
   }
   find_wall_distances();
@@ -245,13 +270,27 @@ double Projection<D>::assemble(const FaceVector<D>& capacity, const FaceVector<D
 }
 
 /// In a closed full box only pressure differences count; the mean is set to that of water at rest
-/// with zero pressure in its highest corner.
+/// with zero pressure in its highest corner, or to zero where the reference says.
 template <int D>
 void Projection<D>::fix_constant(CellField<D>& pressure) {
   const Grid<D>& grid = *grid_;
+  double* p = pressure.data();
+  if (reference_) {
+    const double* weight = reference_->data();
+    double weights = 0.0, weighted = 0.0;
+    for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) {
+      weights += weight[at];
+      weighted += weight[at] * p[at];
+    });
+    weights = sum_over_ranks(grid, weights);
+    weighted = sum_over_ranks(grid, weighted);
+    if (weights > 0.0) {
+      for_each_offset(grid, grid.local(), [&](std::ptrdiff_t at) { p[at] -= weighted / weights; });
+      return;
+    }
+  }
   double cells = 1.0, missing = 0.0;
   for (int a = 0; a < D; ++a) cells *= grid.cells()[a];
-  double* p = pressure.data();
   for_each(grid.owned(), [&](const Index<D>& cell) {
     const Vec<D> centre = grid.cell_centre(cell);
     for (int a = 0; a < D; ++a) {

@@ -19,6 +19,10 @@ class Projection {
   void find_surface(const CellField<D>& water, const CellField<D>& porosity,
                     const CellField<D>& alpha, const InterfaceAdvection<D>& interface);
 
+  /// Without a surface: every cell with room has a pressure unknown. In a closed box its mean,
+  /// weighted by `reference`, is zero.
+  void cover_all(const CellField<D>& porosity, const CellField<D>& reference);
+
   /// Makes div(theta_f v) = target - give_way (p - p_old) in the unknown cells by v -= mobility
   /// grad p. Gibou et al. (2002), J. Comput. Phys. 176, for the surface rows. Throws
   /// DivergenceError when the solver does not reach `tolerance` [1/s]. `capacity` is theta_f.
@@ -33,6 +37,7 @@ class Projection {
   double distance(const double* alpha, std::ptrdiff_t wet, int axis, int direction,
                   const InterfaceAdvection<D>& interface) const;
   double in_mean_cells(double xi, std::ptrdiff_t wet, int axis, int direction) const;
+  double in_mean_cells(std::ptrdiff_t face, int axis) const;
   void find_wall_distances();
   double assemble(const FaceVector<D>& capacity, const FaceVector<D>& mobility,
                   const CellField<D>& target, const CellField<D>& give_way,
@@ -49,6 +54,7 @@ class Projection {
   CellField<D> unknown_;
   FaceVector<D> distance_;     ///< in mean cells; 0: no pressure acts on the face
   CellField<D> rise_, risen_;  ///< of the pressure in this pass, and in all of this projection [Pa]
+  const CellField<D>* reference_ = nullptr;  ///< where pressure is zero in the mean, if given
   PressureSystem<D> system_;
   PressureSolver<D> solver_;
 };

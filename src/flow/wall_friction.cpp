@@ -43,7 +43,9 @@ void add_friction(const Grid<D>& grid, const FlowOptions& options, int axis, int
     const double speed = std::sqrt(speed2);
     const double resolved = 2.0 * options.viscosity * speed / film;
     const double stress = werner_wengle_stress(speed, film, options.density, nu);
-    if (stress > resolved) out[at] += (stress - resolved) / (speed * film);
+    double beyond = stress > resolved ? (stress - resolved) / (speed * film) : 0.0;
+    if (options.gas) beyond *= std::min((first + second) / thinnest_film, 1.0);  // none on gas
+    out[at] += beyond;
   });
 }
 

@@ -11,24 +11,46 @@ namespace {
 /// Below this share of water a donor gives at first order, and a face takes the mixture of what it
 /// held and what came in: such spray has mass in one sweep and none in the next.
 constexpr double thin = 0.01;
-/// Water of less volume per cell than this is round-off: it changes nothing on its face.
+/// Less mass than this is round-off: it changes nothing on its face.
 constexpr double dust = 1e-8;
 
-/// New velocity of a face from the momentum per volume that it exchanged. With enough water `left`
-/// it is the quotient of momentum and mass. Thin spray takes the mixture of what it held (`before`)
-/// and what came in, as if the water that left had been mixed too: the same quotient where nothing
-/// left, else one that stays within its neighbours' range. The two blend: a switch, or a range that
-/// counts a donor as soon as anything comes from it, would turn round-off of the water (1e-24 in
-/// place of 0) into another velocity.
+/// What a face exchanged with its neighbours, relative to its own velocity and per volume.
 struct Exchange {
   double change = 0.0;   ///< momentum lost relative to the face's own velocity [m/s]
   double gained = 0.0;   ///< of it, what came in [m/s]
-  double came_in = 0.0;  ///< water that came in [-]
+  double came_in = 0.0;  ///< mass that came in [-]
 
-  double new_velocity(double velocity, double before, double left, double room) const {
+  /// `solid` = 1: the quotient of momentum and mass. 0: the mixture of what the face held
+  /// (`before`) and what came in, as if the mass that left had been mixed too: the same quotient
+  /// where nothing left, else one that stays within its neighbours' range. The two blend: a switch,
+  /// or a range that counts a donor as soon as anything comes from it, would turn round-off of the
+  /// water (1e-24 in place of 0) into another velocity.
+  double new_velocity(double velocity, double before, double left, double solid) const {
     const double mixture = velocity + gained / std::max(before + came_in, dust);
-    const double solid = std::clamp(2.0 * left / (thin * room) - 1.0, 0.0, 1.0);
     return solid > 0.0 ? mixture + solid * (velocity - change / left - mixture) : mixture;
+  }
+};
+
+/// Where only water has mass, a donor or face with next to none of it counts as spray.
+struct WaterRule {
+  static double slope_share(double mass, double, double room) {
+    return mass > thin * room ? 1.0 : 0.0;
+  }
+  static double solid(const Exchange&, double left, double room) {
+    return std::clamp(2.0 * left / (thin * room) - 1.0, 0.0, 1.0);
+  }
+};
+
+/// Where all has mass: a donor that loses half of it or more (water, and gas remains) gives at
+/// first order, or the slope of the heavy fluid would act on the light one; and where more came in
+/// than is left, some of it passed through within the step, and the quotient is not a mean of
+/// velocities any more.
+struct WaterAndGasRule {
+  static double slope_share(double mass, double left, double) {
+    return std::clamp(2.0 * left / mass - 1.0, 0.0, 1.0);
+  }
+  static double solid(const Exchange& exchange, double left, double) {
+    return exchange.came_in > left ? std::max(2.0 * left / exchange.came_in - 1.0, 0.0) : 1.0;
   }
 };
 
@@ -51,19 +73,26 @@ MomentumTransport<D>::MomentumTransport(const Grid<D>& grid)
     : grid_(&grid), moved_(grid, "moved velocity", "m/s") {}
 
 template <int D>
-void MomentumTransport<D>::advance_component(int component, const double* old_water,
-                                             const double* new_water, const double* porosity,
-                                             const FaceVector<D>& water_flux,
-                                             const double* velocity, double* moved) const {
+template <class Rule>
+void MomentumTransport<D>::advance_component(int component, const CellField<D>& old_mass,
+                                             const CellField<D>& new_mass,
+                                             const CellField<D>& porosity,
+                                             const FaceVector<D>& mass_flux,
+                                             const FaceVector<D>& velocities) {
   const Grid<D>& grid = *grid_;
   const std::ptrdiff_t sa = grid.stride(component);
-  const auto mass = [&](std::ptrdiff_t at) { return 0.5 * (old_water[at - sa] + old_water[at]); };
+  const auto at_face = [sa](const double* cells, std::ptrdiff_t at) {
+    return 0.5 * (cells[at - sa] + cells[at]);
+  };
+  const double *old = old_mass.data(), *now = new_mass.data(), *theta = porosity.data();
+  const double* velocity = velocities[component].data();
+  double* moved = moved_[component].data();
   for_each_offset(grid, inner_faces(grid, component), [&](std::ptrdiff_t at) {
     const double v = velocity[at];
-    const double room = 0.5 * (porosity[at - sa] + porosity[at]);
+    const double room = at_face(theta, at);
     Exchange exchange;
     for (int axis = 0; axis < D; ++axis) {
-      const double* flux = water_flux[axis].data();
+      const double* flux = mass_flux[axis].data();
       const std::ptrdiff_t s = grid.stride(axis);
       for (int side = 0; side < 2; ++side) {
         const std::ptrdiff_t here =
@@ -73,11 +102,12 @@ void MomentumTransport<D>::advance_component(int component, const double* old_wa
         if (through == 0.0) continue;
         const std::ptrdiff_t donor = through > 0.0 ? here - s : here, step = through > 0.0 ? s : -s;
         double carried = velocity[donor];
-        const double donor_mass = mass(donor);
-        if (donor_mass > thin * room) {
+        const double donor_mass = at_face(old, donor);
+        const double slope = Rule::slope_share(donor_mass, at_face(now, donor), room);
+        if (slope > 0.0) {
           const double share = std::min(std::abs(through) / donor_mass, 1.0);
           carried +=
-              0.5 * (1.0 - share) *
+              slope * 0.5 * (1.0 - share) *
               limited_slope(carried - velocity[donor - step], velocity[donor + step] - carried);
         }
         const double momentum = std::abs(through) * (carried - v);
@@ -85,8 +115,8 @@ void MomentumTransport<D>::advance_component(int component, const double* old_wa
         if (donor != at) exchange.gained += momentum, exchange.came_in += std::abs(through);
       }
     }
-    const double left = 0.5 * (new_water[at - sa] + new_water[at]);
-    moved[at] = exchange.new_velocity(v, mass(at), left, room);
+    const double left = at_face(now, at);
+    moved[at] = exchange.new_velocity(v, at_face(old, at), left, Rule::solid(exchange, left, room));
   });
 }
 
@@ -104,12 +134,16 @@ void MomentumTransport<D>::copy_to_open_walls(int component, double* values) con
 }
 
 template <int D>
-void MomentumTransport<D>::advance(const CellField<D>& old_water, const CellField<D>& new_water,
-                                   const CellField<D>& porosity, const FaceVector<D>& water_flux,
-                                   FaceVector<D>& velocity) {
-  for (int component = 0; component < D; ++component)
-    advance_component(component, old_water.data(), new_water.data(), porosity.data(), water_flux,
-                      velocity[component].data(), moved_[component].data());
+void MomentumTransport<D>::advance(Inertia inertia, const CellField<D>& old_mass,
+                                   const CellField<D>& new_mass, const CellField<D>& porosity,
+                                   const FaceVector<D>& mass_flux, FaceVector<D>& velocity) {
+  for (int component = 0; component < D; ++component) {
+    if (inertia == Inertia::water)
+      advance_component<WaterRule>(component, old_mass, new_mass, porosity, mass_flux, velocity);
+    else
+      advance_component<WaterAndGasRule>(component, old_mass, new_mass, porosity, mass_flux,
+                                         velocity);
+  }
   for (int component = 0; component < D; ++component) {
     const double* from = moved_[component].data();
     double* to = velocity[component].data();

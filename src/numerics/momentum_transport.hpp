@@ -9,23 +9,29 @@
 
 namespace mudlark {
 
+/// What has mass: the water alone, so that cells may hold next to nothing, or the gas beside it
+/// too.
+enum class Inertia { water, water_and_gas };
+
 template <int D>
 class MomentumTransport {
  public:
   explicit MomentumTransport(const Grid<D>& grid);
 
   /// velocity <- velocity - sum F (v* - velocity) / M_f^new on the faces inside the domain; v* is
-  /// upwind with van Leer's limited slope (van Leer 1974, J. Comput. Phys. 14). `water_flux` is the
-  /// share of a cell's volume that passed each face. All inputs need valid ghosts. Faces of open
-  /// walls copy their inner neighbour; ghosts of `velocity` are stale afterwards.
-  void advance(const CellField<D>& old_water, const CellField<D>& new_water,
-               const CellField<D>& porosity, const FaceVector<D>& water_flux,
+  /// upwind with van Leer's limited slope (van Leer 1974, J. Comput. Phys. 14). Masses are relative
+  /// to water that fills the cell; `mass_flux` is the share of it that passed each face. All inputs
+  /// need valid ghosts. Faces of open walls copy their inner neighbour; ghosts of `velocity` are
+  /// stale afterwards.
+  void advance(Inertia inertia, const CellField<D>& old_mass, const CellField<D>& new_mass,
+               const CellField<D>& porosity, const FaceVector<D>& mass_flux,
                FaceVector<D>& velocity);
 
  private:
-  void advance_component(int component, const double* old_water, const double* new_water,
-                         const double* porosity, const FaceVector<D>& water_flux,
-                         const double* velocity, double* moved) const;
+  template <class Rule>
+  void advance_component(int component, const CellField<D>& old_mass, const CellField<D>& new_mass,
+                         const CellField<D>& porosity, const FaceVector<D>& mass_flux,
+                         const FaceVector<D>& velocity);
   void copy_to_open_walls(int component, double* values) const;
 
   const Grid<D>* grid_;
