@@ -53,7 +53,19 @@ struct VanGent {
   }
 };
 
+/// CADMAS-SURF: R = 1/2 C_D/L (1 - n) |v| v per volume and density, with the interstitial v = w/n;
+/// it equals n w B|w|, so B = C_D rho (1-n)/(2 L n^3).
+struct Cadmas {
+  double density;           ///< [kg/m3]
+  double drag_coefficient;  ///< C_D [-]
+  double length;            ///< L [m]: the cell size there
+  DragCoefficients operator()(double n) const {
+    return {0.0, 0.5 * drag_coefficient * density * (1.0 - n) / (length * n * n * n)};
+  }
+};
+
 static_assert(DragLawOfPorosity<Darcy> && DragLawOfPorosity<DarcyForchheimer>);
 static_assert(DragLawOfPorosity<Ergun> && DragLawOfPorosity<VanGent>);
+static_assert(DragLawOfPorosity<Cadmas>);
 
 }  // namespace mudlark

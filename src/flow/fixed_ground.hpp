@@ -9,10 +9,10 @@ namespace mudlark {
 /// Coefficients of one ground's drag law at its porosity.
 DragCoefficients drag_of(const PorousGround& ground, const FlowOptions& water);
 
-/// Adds the fixed ground: porosity by the share of each cell inside the shapes, drag by the share
-/// of each face's own cell-sized box inside (half where a mound's edge runs along the face:
-/// resistances in series). Where grounds overlap the later one counts. Values hold in the ghost
-/// layers too; grains stand still.
+/// Adds the fixed ground, with its added mass as drag: porosity by the share of each cell inside
+/// the shapes, drag by the share of each face's own cell-sized box inside (half where a mound's
+/// edge runs along the face: resistances in series). Where grounds overlap the later one counts.
+/// Values hold in the ghost layers too; grains stand still.
 template <int D>
 void fill_fixed_ground(const Grid<D>& grid, const FlowOptions& options, PorousMedium<D>& medium);
 

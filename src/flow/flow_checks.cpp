@@ -159,7 +159,10 @@ double water_front(const Grid<D>& grid, const CellField<D>& saturation) {
 
 template <int D>
 double interpolate(const Grid<D>& grid, const double* values, int axis, const Vec<D>& position) {
-  const Index<D> cell = grid.cell_at(position);
+  Index<D> cell = grid.cell_at(position);
+  for (int a = 0; a < D; ++a)  // a gauge on the domain's upper end stands on the last cell
+    if (cell[a] == grid.cells()[a] && position[a] <= grid.upper()[a] + 1e-9 * grid.spacing()[a])
+      cell[a] -= 1;
   double sum = 0.0;
   if (grid.owned().contains(cell)) {
     Index<D> corner;

@@ -271,7 +271,7 @@ void FlowSolver<D>::advance(const PorousMedium<D>& medium, double dt) {
   find_unknowns();
   if (options_.wall_law == WallLaw::werner_wengle)
     find_wall_friction(*grid_, options_, water_, velocity_, wall_friction_);
-  predictor_.advance(medium, porosity_, capacity_, wall_friction_, dt,
+  predictor_.advance(medium, porosity_, capacity_, wall_friction_, time_, dt,
                      gas_ ? &gas_->mixture() : nullptr, velocity_, mobility_);
   find_target(medium, dt);
   const bool gas_gives_way = gas_ && gas_->compressible();
@@ -344,7 +344,7 @@ double FlowSolver<D>::stable_step(const PorousMedium<D>&) const {
   const Grid<D>& grid = *grid_;
   const double h = grid.smallest_spacing();
   double step = options_.courant / std::max(courant_rate(), 1e-300);
-  const double gravity = norm(grid.gravity());
+  const double gravity = norm(grid.gravity()) + predictor_.largest_body_acceleration(time_);
   if (gravity > 0.0)
     step = std::min(step, 2.0 * options_.courant * std::sqrt(h / (std::numbers::pi * gravity)));
   if (options_.viscosity > 0.0)

@@ -1,5 +1,6 @@
 #pragma once
 /// What the case file says about the water, as plain data (SI units).
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,7 +16,7 @@ struct WaterBody {
   std::array<Varying, 3> velocity{};  ///< initial velocity [m/s], per axis
 };
 
-enum class DragLaw { darcy, darcy_forchheimer, ergun, van_gent };
+enum class DragLaw { darcy, darcy_forchheimer, ergun, van_gent, cadmas };
 
 /// Fixed porous ground: rubble mound, filter, breakwater, rigid bed.
 struct PorousGround {
@@ -26,8 +27,10 @@ struct PorousGround {
   double intrinsic_permeability = 0.0;  ///< [m2], darcy laws
   double forchheimer = 0.0;  ///< B of (A + B|w|) w [Pa s2/m3 per ... i.e. kg/m4], darcy_forchheimer
   double grain_size = 0.0;   ///< [m], ergun and van_gent
-  double alpha = 1000.0, beta = 1.1;  ///< van Gent (1995) coefficients [-]
-  double keulegan_carpenter = 0.0;    ///< KC [-]; 0: steady flow, no KC term
+  double alpha = 1000.0, beta = 1.1;                 ///< van Gent (1995) coefficients [-]
+  double keulegan_carpenter = 0.0;                   ///< KC [-]; 0: steady flow, no KC term
+  double drag_coefficient = 0.0, drag_length = 0.0;  ///< C_D [-] and its length [m], cadmas
+  double inertia_coefficient = 0.0;                  ///< C_A of the added mass C_A rho (1 - n) [-]
 };
 
 /// Friction of no-slip walls. resolved: the viscous profile between the wall and the first row of
@@ -54,6 +57,7 @@ struct FlowOptions {
   std::vector<WaveZoneOptions> waves;
   WallLaw wall_law = WallLaw::resolved;
   bool advection = true;  ///< momentum advection (off: Stokes flow, for tests)
+  std::optional<std::array<Varying, 3>> body_acceleration;  ///< beside gravity [m/s2]
 };
 
 }  // namespace mudlark

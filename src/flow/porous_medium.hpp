@@ -16,8 +16,10 @@ struct PorousMedium {
   FaceVector<D> grain_velocity;  ///< v_s [m/s]
   FaceVector<D> linear_drag;     ///< A of the pressure loss (A + B|w|) w, w = n(v - v_s) [Pa s/m2]
   FaceVector<D> quadratic_drag;  ///< B [Pa s2/m3]
-  CellField<D> give_way;  ///< volume rate per volume and pressure rise over the step [1/(Pa s)]:
-                          ///< how easily the ground gives way; 0 for rigid ground
+  FaceVector<D> added_mass;  ///< C_A rho (1-n)/n [kg/m3]: what fixed grains add to the inertia of
+                             ///< the water between them, per volume of it
+  CellField<D> give_way;     ///< volume rate per volume and pressure rise over the step [1/(Pa s)]:
+                             ///< how easily the ground gives way; 0 for rigid ground
 };
 
 }  // namespace mudlark

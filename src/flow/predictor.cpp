@@ -15,6 +15,7 @@ Predictor<D>::Predictor(const Grid<D>& grid, const FlowOptions& options)
       gas_density_(options.gas ? options.gas->density : 0.0),
       gas_viscosity_(options.gas ? options.gas->viscosity : 0.0),
       viscous_(grid),
+      body_(grid, options),
       acceleration_(grid, "viscous acceleration", "m/s2") {
   const auto inverse_square = [](double length) { return 1.0 / (length * length); };
   for (int a = 0; a < D; ++a) {
@@ -87,18 +88,22 @@ double seepage_squared(const Grid<D>& grid, int component, const FaceVector<D>& 
   return square * porosity * porosity;
 }
 
-/// Water alone: the same density and weight on all faces.
+/// Water alone: the same density and weight on all faces. `share` scales the water's added mass.
 struct WaterAlone {
   double mass, gravity;
   double density(std::ptrdiff_t) const { return mass; }
   double weight(std::ptrdiff_t) const { return gravity; }
+  double share(std::ptrdiff_t) const { return 1.0; }
 };
 
 /// Water and gas: density and weight face by face.
 struct WaterAndGas {
   const double *mass, *acceleration;
+  double water;
   double density(std::ptrdiff_t at) const { return mass[at]; }
   double weight(std::ptrdiff_t at) const { return acceleration[at]; }
+  /// Added mass is that of the fluid that is pushed aside.
+  double share(std::ptrdiff_t at) const { return mass[at] / water; }
 };
 
 }  // namespace
@@ -150,27 +155,30 @@ double Predictor<D>::water_share(double density) const {
 template <int D>
 void Predictor<D>::advance(const PorousMedium<D>& medium, const CellField<D>& porosity,
                            const FaceVector<D>& capacity, const FaceVector<D>& wall_friction,
-                           double dt, const Mixture<D>* mixture, FaceVector<D>& velocity,
-                           FaceVector<D>& mobility) {
+                           double time, double dt, const Mixture<D>* mixture,
+                           FaceVector<D>& velocity, FaceVector<D>& mobility) {
   const Grid<D>& grid = *grid_;
   find_forces(medium, porosity, capacity, mixture, velocity, mobility);
   for (int a = 0; a < D; ++a) {
+    body_.add(a, time + 0.5 * dt, acceleration_[a]);
     const double* viscous = acceleration_[a].data();
     const double* grains = medium.grain_velocity[a].data();
     const double* friction = wall_friction[a].data();
+    const double* added = medium.added_mass[a].data();
     double* v = velocity[a].data();
     double* m = mobility[a].data();
     const auto push = [&](const auto& fluid) {
       for_each_offset(grid, bounding_faces(grid, a), [&](std::ptrdiff_t at) {
         const double resistance = m[at], rho = fluid.density(at);
-        m[at] = dt / (rho + dt * (resistance + friction[at]));
-        v[at] =
-            (rho * (v[at] + dt * (fluid.weight(at) + viscous[at])) + dt * resistance * grains[at]) *
-            (m[at] / dt);
+        const double inertia = added[at] * fluid.share(at);
+        m[at] = dt / (rho + inertia + dt * (resistance + friction[at]));
+        v[at] = (rho * (v[at] + dt * (fluid.weight(at) + viscous[at])) + inertia * v[at] +
+                 dt * resistance * grains[at]) *
+                (m[at] / dt);
       });
     };
     if (mixture)
-      push(WaterAndGas{mixture->density[a].data(), mixture->acceleration[a].data()});
+      push(WaterAndGas{mixture->density[a].data(), mixture->acceleration[a].data(), density_});
     else
       push(WaterAlone{density_, grid.gravity()[a]});
     for (int side = 0; side < 2; ++side) {

@@ -1,5 +1,6 @@
 #pragma once
 /// Forces on the water other than pressure: gravity, viscosity, drag of the grains.
+#include "flow/body_acceleration.hpp"
 #include "flow/options.hpp"
 #include "flow/porous_medium.hpp"
 #include "flow/two_fluids.hpp"
@@ -12,16 +13,20 @@ class Predictor {
  public:
   Predictor(const Grid<D>& grid, const FlowOptions& options);
 
-  /// velocity <- (rho (v + dt (g + nu lap v)) + dt R v_s) / (rho + dt (R + F)), F of the walls, R =
-  /// n_f (A + B|w|) on all faces but closed walls, and mobility = dt / (rho + dt (R + F)) [m2
-  /// s/kg]: what a unit pressure gradient changes v by. Drag is implicit in v with |w| of the start
-  /// of the step. Ghosts of all inputs valid; afterwards ghosts of velocity are stale; mobility
-  /// holds on owned and bounding faces.
+  /// velocity <- ((rho + m) v + dt rho (g + b + nu lap v) + dt R v_s) / (rho + m + dt (R + F)) on
+  /// all faces but closed walls: b of the body at half the step, m the added mass of fixed grains,
+  /// F of the walls, R = n_f (A + B|w|); and mobility = dt / (rho + m + dt (R + F)) [m2 s/kg]: what
+  /// a unit pressure gradient changes v by. Drag is implicit in v with |w| of the start of the
+  /// step, `time` [s]. Ghosts of all inputs valid; afterwards ghosts of velocity are stale;
+  /// mobility holds on owned and bounding faces.
   /// With a mixture, density, weight and viscosity are its own, and drag is that of its share of
   /// water and gas: A is proportional to viscosity, B to density.
   void advance(const PorousMedium<D>& medium, const CellField<D>& porosity,
-               const FaceVector<D>& capacity, const FaceVector<D>& wall_friction, double dt,
-               const Mixture<D>* mixture, FaceVector<D>& velocity, FaceVector<D>& mobility);
+               const FaceVector<D>& capacity, const FaceVector<D>& wall_friction, double time,
+               double dt, const Mixture<D>* mixture, FaceVector<D>& velocity,
+               FaceVector<D>& mobility);
+  /// Of the body at a time [s], [m/s2]. Collective.
+  double largest_body_acceleration(double time) const { return body_.largest(time); }
 
  private:
   void find_forces(const PorousMedium<D>& medium, const CellField<D>& porosity,
@@ -37,6 +42,7 @@ class Predictor {
   /// the centres of the cells beside a face.
   std::array<std::vector<double>, D> across_cell_, across_face_;
   ViscousForce<D> viscous_;
+  BodyAcceleration<D> body_;
   FaceVector<D> acceleration_;
 };
 

@@ -23,16 +23,42 @@ void read_grain_laws(Section& drag, PorousGround& ground) {
       not_negative("a Keulegan-Carpenter number; 0 for steady flow"), ground.keulegan_carpenter);
 }
 
+void read_cadmas(Section& drag, PorousGround& ground) {
+  ground.drag_coefficient =
+      drag.number("drag_coefficient", quantity::number,
+                  not_negative("C_D, a coefficient of drag", "C_D = 1 to 3 is usual."));
+  ground.drag_length = drag.number(
+      "drag_length", quantity::length,
+      positive("the length that C_D refers to lies above 0",
+               "In CADMAS-SURF it is the cell size; rubble has about its stones' size."));
+}
+
+/// C_A of the added mass: van Gent's law brings its own, CADMAS-SURF's C_M belongs to its C_D.
+void read_inertia(Section& drag, PorousGround& ground) {
+  std::optional<double> usual = 0.0;
+  if (ground.drag == DragLaw::van_gent) usual = 0.34;
+  if (ground.drag == DragLaw::cadmas) usual.reset();
+  ground.inertia_coefficient =
+      drag.number("inertia_coefficient", quantity::number,
+                  not_negative("C_A of the added mass C_A rho (1 - n); 0: none",
+                               "0.34 is van Gent's, C_M = 0.5 to 1.2 is usual in CADMAS-SURF."),
+                  usual);
+}
+
 void read_drag(Section& porous, PorousGround& ground, const FlowOptions& flow) {
   Section drag = porous.table("drag", Record::Form::block, true);
   if (!porous.has("drag")) return;
   ground.drag = drag.choice<DragLaw>("type", {{"darcy", DragLaw::darcy},
                                               {"darcy-forchheimer", DragLaw::darcy_forchheimer},
                                               {"ergun", DragLaw::ergun},
-                                              {"van-gent", DragLaw::van_gent}});
+                                              {"van-gent", DragLaw::van_gent},
+                                              {"cadmas", DragLaw::cadmas}});
+  const bool cadmas = ground.drag == DragLaw::cadmas;
   const bool by_grains = ground.drag == DragLaw::ergun || ground.drag == DragLaw::van_gent;
   if (by_grains)
     read_grain_laws(drag, ground);
+  else if (cadmas)
+    read_cadmas(drag, ground);
   else
     ground.intrinsic_permeability =
         read_permeability(drag, flow.density, flow.viscosity, true).value_or(0.0);
@@ -40,14 +66,21 @@ void read_drag(Section& porous, PorousGround& ground, const FlowOptions& flow) {
     ground.forchheimer =
         drag.number("forchheimer", quantity::forchheimer, not_negative("a drag cannot push"));
   for (const char* key : {"hydraulic_conductivity", "intrinsic_permeability"})
-    if (by_grains) drag.forbid(key, "this type of drag follows from the grain size");
+    if (by_grains || cadmas)
+      drag.forbid(key, cadmas ? "this type of drag follows from drag_coefficient"
+                              : "this type of drag follows from the grain size");
   for (const char* key : {"grain_size", "alpha", "beta", "keulegan_carpenter"})
-    if (!by_grains) drag.forbid(key, "this type of drag follows from the permeability");
+    if (!by_grains)
+      drag.forbid(key, cadmas ? "this type of drag follows from drag_coefficient"
+                              : "this type of drag follows from the permeability");
+  for (const char* key : {"drag_coefficient", "drag_length"})
+    if (!cadmas) drag.forbid(key, "it belongs to type = \"cadmas\"");
   if (ground.drag == DragLaw::ergun)
     for (const char* key : {"alpha", "beta", "keulegan_carpenter"})
       drag.forbid(key, "it belongs to type = \"van-gent\"");
   if (ground.drag != DragLaw::darcy_forchheimer)
     drag.forbid("forchheimer", "it belongs to type = \"darcy-forchheimer\"");
+  read_inertia(drag, ground);
   drag.finish();
 }
 
@@ -94,7 +127,7 @@ void read_porous(Section& root, CaseOptions& options, std::vector<NamedShape>& g
   for (Section& section : root.tables("porous")) {
     PorousGround ground;
     ground.name = read_name(section, names);
-    const auto shape = read_shape(section, "shape");
+    const auto shape = read_shape(section, "shape", true);
     ground.porosity =
         section.number("porosity", quantity::number,
                        {.lower = 0.0,

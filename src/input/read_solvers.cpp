@@ -173,6 +173,8 @@ void read_flow_solver(Section& root, FlowOptions& flow, std::optional<double> co
           "the bound on what the pressure solver leaves of the divergence, above 0, at most 0.01"),
       flow.pressure_tolerance);
   flow.advection = section.flag("advection", flow.advection);
+  if (section.has("body_acceleration"))
+    flow.body_acceleration = section.varying_per_axis("body_acceleration", quantity::acceleration);
   flow.wall_law = section.choice<WallLaw>(
       "wall_law", {{"resolved", WallLaw::resolved}, {"werner-wengle", WallLaw::werner_wengle}},
       flow.wall_law);

@@ -65,6 +65,9 @@ bool is_led(const Solid& solid, std::size_t axis) {
 template <int D>
 bool acted_upon(World<D>& world, int axis) {
   if (!world.grid().periodic(axis) || world.grid().gravity()[axis] != 0.0) return true;
+  if (const auto& flow = world.options().flow;
+      flow && (flow->body_acceleration || !flow->porous.empty()))
+    return true;
   if (!world.soil()) return false;
   const auto& solids = world.soil()->solids();
   return std::any_of(solids.begin(), solids.end(), [&](const Solid& solid) {

@@ -76,6 +76,17 @@ TEST(FlowGauges, EverySurfaceOverAPlaceIsFoundFromTheTopDown) {
   EXPECT_NEAR(right[0], 0.113, 1e-14);
 }
 
+/// Pressure sensors sit in walls, at the domain's very ends.
+TEST(FlowGauges, PressureOnTheWallsIsThatBesideThem) {
+  FlowOptions options;
+  options.bodies = {water_box({-1.0, -1.0, -1.0}, {1.0, 1.0, 0.31})};
+  const FlowRun<2> run(tank<2>(10), options);
+  for (const double x : {0.0, 0.3, 0.6})
+    EXPECT_NEAR(run.flow.pressure_at(Vec<2>{{x, 0.11}}), 9810.0 * 0.2, 1e-8);
+  EXPECT_EQ(run.flow.pressure_at(Vec<2>{{0.6, 0.5}}), 0.0);
+  EXPECT_EQ(run.flow.pressure_at(Vec<2>{{0.7, 0.11}}), 0.0);
+}
+
 template <int D>
 RunUpRange<D> everywhere(double thickness) {
   RunUpRange<D> range{{}, {}, thickness};
