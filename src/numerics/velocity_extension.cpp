@@ -11,7 +11,8 @@ namespace {
 constexpr double empty = -2.0;  ///< no water: to be extended
 constexpr double free_fly =
     -1.0;  ///< water without pressure: extended next to governed faces, else kept
-constexpr double governed = 0.0;
+/// Governed faces hold this times the share of water in their two cells: above 0 and at most 1/2.
+constexpr double governed = 0.5;
 constexpr double flying = 10.0;
 constexpr double closed =
     20.0;  ///< closed wall: known, but no source: water may leave a ceiling or a wall
@@ -42,10 +43,11 @@ void VelocityExtension<D>::mark(int component, const CellField<D>& unknown,
   const double* theta = porosity.data();
   double* state = state_[component].data();
   for_each_offset(grid, box, [&](std::ptrdiff_t at) {
+    const double held = w[at] + w[at - s], room = theta[at] + theta[at - s];
     if (inside[at] + inside[at - s] > 0.0)
-      state[at] = governed;
+      state[at] = governed * std::min(held / room, 1.0);
     else
-      state[at] = w[at] + w[at - s] > dust * (theta[at] + theta[at - s]) ? free_fly : empty;
+      state[at] = held > dust * room ? free_fly : empty;
   });
   for (int side = 0; side < 2; ++side) {
     if (!grid.touches(component, side) || grid.wall(component, side) == Wall::open) continue;
@@ -57,12 +59,47 @@ void VelocityExtension<D>::mark(int component, const CellField<D>& unknown,
   }
 }
 
-/// Faces still without a value take the mean of the neighbours that had one before this layer.
+/// Faces next to governed ones: n . grad v = 0 with the upwind differences along the axes in which
+/// the water gets more, n being the gradient of its share. A plain mean of the neighbours would
+/// take part of the velocity from along the surface, on a wave always from the side of the crest:
+/// that drives a current (decision 0080).
+template <int D>
+void VelocityExtension<D>::grow_along_normal(int component, const CellField<D>& water,
+                                             const CellField<D>& porosity, double* velocity) {
+  const Grid<D>& grid = *grid_;
+  IndexBox<D> box = grid.owned().grown(ghost_layers - 1);
+  double* state = state_[component].data();
+  const double* w = water.data();
+  const double* theta = porosity.data();
+  const std::ptrdiff_t sc = grid.stride(component);
+  for_each_place(grid, box, [&](std::ptrdiff_t at, const Index<D>& index) {
+    if (state[at] >= 0.0) return;
+    const double room = theta[at] + theta[at - sc];
+    const double held = room > 0.0 ? (w[at] + w[at - sc]) / room : 0.0;
+    double sum = 0.0, weights = 0.0, mean = 0.0, count = 0.0;
+    for (int axis = 0; axis < D; ++axis) {
+      const std::ptrdiff_t s = grid.stride(axis);
+      const double h = grid.width(axis, index[axis]);
+      for (const std::ptrdiff_t other : {at - s, at + s}) {
+        if (state[other] <= 0.0 || state[other] > governed) continue;
+        const double weight = std::max(state[other] / governed - held, 0.0) / (h * h);
+        sum += weight * velocity[other], weights += weight;
+        mean += velocity[other], count += 1.0;
+      }
+    }
+    if (count == 0.0) return;
+    velocity[at] = weights > 0.0 ? sum / weights : mean / count;
+    state[at] = 1.0;
+  });
+}
+
+/// Farther faces still without a value take the mean of the neighbours that had one before this
+/// layer.
 template <int D>
 void VelocityExtension<D>::grow_layer(int component, int layer, double* velocity) {
   const Grid<D>& grid = *grid_;
   IndexBox<D> box = grid.owned().grown(ghost_layers - layer);
-  if (grid.touches(component, 1)) box = box.extended(component, layer == 1 ? 0 : 1);
+  if (grid.touches(component, 1)) box = box.extended(component, 1);
   double* state = state_[component].data();
   const double mine = static_cast<double>(layer);
   for_each_offset(grid, box, [&](std::ptrdiff_t at) {
@@ -71,7 +108,7 @@ void VelocityExtension<D>::grow_layer(int component, int layer, double* velocity
     for (int axis = 0; axis < D; ++axis) {
       const std::ptrdiff_t s = grid.stride(axis);
       for (const std::ptrdiff_t other : {at - s, at + s})
-        if (state[other] >= 0.0 && (state[other] < mine || state[other] == flying))
+        if (state[other] > 0.0 && (state[other] < mine || state[other] == flying))
           sum += velocity[other], count += 1.0;
     }
     if (count == 0.0) return;
@@ -89,7 +126,7 @@ void VelocityExtension<D>::extend(const CellField<D>& unknown, const CellField<D
   for (int component = 0; component < D; ++component) {
     double* v = velocity[component].data();
     double* state = state_[component].data();
-    grow_layer(component, 1, v);
+    grow_along_normal(component, water, porosity, v);
     const auto all = grid.local();
     for_each_offset(grid, all, [&](std::ptrdiff_t at) {
       if (state[at] == free_fly) state[at] = flying;

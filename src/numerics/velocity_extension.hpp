@@ -9,18 +9,20 @@ class VelocityExtension {
  public:
   explicit VelocityExtension(const Grid<D>& grid);
 
-  /// Faces that touch a cell with `unknown` = 1 keep their velocity. Faces next to them take the
-  /// mean of them (constant extension). Farther faces with water fly on freely with what they have;
-  /// those without water take the mean of their neighbours in two more layers, and zero beyond.
-  /// Afterwards water that flies freely is kept from being squeezed: a cell without pressure may
-  /// open but not close (a thin film on the floor would otherwise fall for ever). All inputs and
-  /// the result have valid ghosts.
+  /// Faces that touch a cell with `unknown` = 1 keep their velocity. Faces next to them take
+  /// theirs, constant along the normal of the surface. Farther faces with water fly on freely with
+  /// what they have; those without water take the mean of their neighbours in two more layers, and
+  /// zero beyond. Afterwards water that flies freely is kept from being squeezed: a cell without
+  /// pressure may open but not close (a thin film on the floor would otherwise fall for ever). All
+  /// inputs and the result have valid ghosts.
   void extend(const CellField<D>& unknown, const CellField<D>& water, const CellField<D>& porosity,
               FaceVector<D>& velocity);
 
  private:
   void mark(int component, const CellField<D>& unknown, const CellField<D>& water,
             const CellField<D>& porosity);
+  void grow_along_normal(int component, const CellField<D>& water, const CellField<D>& porosity,
+                         double* velocity);
   void grow_layer(int component, int layer, double* velocity);
   void keep_from_closing(const CellField<D>& unknown, const CellField<D>& water,
                          const CellField<D>& porosity, FaceVector<D>& velocity);

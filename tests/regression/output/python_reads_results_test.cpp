@@ -72,5 +72,10 @@ TEST(PythonPackage, HasReferenceCurvesThatAgreeWithTheirSources) {
       python(std::string(MUDLARK_SOURCE_DIR) + "/tests/regression/output/check_references.py"), 0);
 }
 
+TEST(PythonPackage, SplitsWavesIntoIncidentAndReflectedOnes) {
+  EXPECT_EQ(
+      python(std::string(MUDLARK_SOURCE_DIR) + "/tests/regression/output/check_reflection.py"), 0);
+}
+
 }  // namespace
 }  // namespace mudlark
