@@ -52,6 +52,7 @@ FlowSolver<D>::FlowSolver(const Grid<D>& grid, const FlowOptions& options)
       mobility_(grid, "mobility", "m2 s/kg"),
       wall_friction_(grid, "wall friction", "Pa s/m2") {
   if (options.gas) gas_.emplace(grid, options);
+  if (options.turbulence.model != TurbulenceModel::none) turbulence_.emplace(grid, options);
 }
 
 /// Ghosts and what follows from W, theta and v.
@@ -132,6 +133,7 @@ void FlowSolver<D>::initialise(const PorousMedium<D>& medium) {
   step_ = 0;
   find_unknowns();
   project_start(medium);
+  if (turbulence_) turbulence_->find(medium, saturation_, velocity_);
 }
 
 /// Where pressure acts, for the present water: in the water up to its surface, or everywhere.
@@ -260,6 +262,8 @@ void FlowSolver<D>::transport(const PorousMedium<D>& medium, double dt) {
     gas_->move_momentum(water_, porosity_, flux_, carried_, dt, momentum_, velocity_);
   else
     momentum_.advance(Inertia::water, old_water_, water_, porosity_, carried_, velocity_);
+  if (turbulence_)
+    turbulence_->move(gas_ ? gas_->mass() : water_, gas_ ? gas_->mass_flux() : carried_);
 }
 
 template <int D>
@@ -269,10 +273,12 @@ void FlowSolver<D>::advance(const PorousMedium<D>& medium, double dt) {
   if (!waves_.empty()) make_waves(dt);
   update_derived();
   find_unknowns();
-  if (options_.wall_law == WallLaw::werner_wengle)
+  if (options_.wall_law != WallLaw::resolved)
     find_wall_friction(*grid_, options_, water_, velocity_, wall_friction_);
+  if (turbulence_) turbulence_->advance(medium, saturation_, velocity_, dt);
   predictor_.advance(medium, porosity_, capacity_, wall_friction_, time_, dt,
-                     gas_ ? &gas_->mixture() : nullptr, velocity_, mobility_);
+                     gas_ ? &gas_->mixture() : nullptr,
+                     turbulence_ ? &turbulence_->viscosity() : nullptr, velocity_, mobility_);
   find_target(medium, dt);
   const bool gas_gives_way = gas_ && gas_->compressible();
   const CellField<D>& give_way =
@@ -283,6 +289,7 @@ void FlowSolver<D>::advance(const PorousMedium<D>& medium, double dt) {
   ghosts_.update_velocity(velocity_);
   if (!gas_) extension_.extend(projection_.unknown(), water_, porosity_, velocity_);
   check_finite();
+  if (turbulence_) turbulence_->find(medium, saturation_, velocity_);
   step_ += 1;
   time_ += dt;
 }
@@ -352,6 +359,9 @@ double FlowSolver<D>::stable_step(const PorousMedium<D>&) const {
   // At the surface a face may be lighter than the edges beside it are viscous: up to four times.
   if (gas_ && options_.gas->viscosity > 0.0)
     step = std::min(step, h * h * options_.gas->density / (24.0 * options_.gas->viscosity));
+  if (turbulence_)  // a little below 1/6: the viscosity varies, and its stress is symmetric
+    step = std::min(
+        step, h * h / (8.0 * (options_.viscosity / options_.density + turbulence_->largest())));
   return step;
 }
 

@@ -18,6 +18,7 @@
 #include "flow/porous_medium.hpp"
 #include "flow/predictor.hpp"
 #include "flow/projection.hpp"
+#include "flow/turbulence.hpp"
 #include "flow/two_fluids.hpp"
 #include "numerics/interface_advection.hpp"
 #include "numerics/momentum_transport.hpp"
@@ -80,6 +81,8 @@ class FlowSolver {
   /// Values at a position by linear interpolation; zero outside the domain. Collective.
   double pressure_at(const Vec<D>& position) const;
   Vec<D> velocity_at(const Vec<D>& position) const;
+  /// Null where the flow has none.
+  const Turbulence<D>* turbulence() const { return turbulence_ ? &*turbulence_ : nullptr; }
   const SolveReport& last_solve() const { return last_solve_; }
 
   /// The whole state: a run that goes on from it continues bit for bit.
@@ -95,6 +98,7 @@ class FlowSolver {
     a.faces("flow velocity", velocity_);
     a.faces("flow capacity", capacity_);
     ghosts_.exchange(capacity_);
+    if (turbulence_) turbulence_->archive(a);
     update_derived();
   }
 
@@ -125,6 +129,7 @@ class FlowSolver {
   VelocityExtension<D> extension_;
   WaveZones<D> waves_;
   std::optional<TwoFluids<D>> gas_;
+  std::optional<Turbulence<D>> turbulence_;
   CellField<D> water_, porosity_, pressure_, saturation_;
   FaceVector<D> velocity_;
   CellField<D> old_water_, new_porosity_, target_, no_storage_;

@@ -34,8 +34,9 @@ struct PorousGround {
 };
 
 /// Friction of no-slip walls. resolved: the viscous profile between the wall and the first row of
-/// velocities; werner_wengle: where that row lies beyond the viscous sublayer, the 1/7 power law.
-enum class WallLaw { resolved, werner_wengle };
+/// velocities; werner_wengle: where that row lies beyond the viscous sublayer, the 1/7 power law;
+/// logarithmic: the log law.
+enum class WallLaw { resolved, werner_wengle, logarithmic };
 
 /// The second fluid, where air counts.
 struct Gas {
@@ -43,6 +44,15 @@ struct Gas {
   double viscosity = 1.8e-5;           ///< dynamic, [Pa s]
   std::optional<double> bulk_modulus;  ///< [Pa]; without it the gas keeps its volume
   std::array<Varying, 3> velocity{};   ///< at the start, outside the bodies of water [m/s]
+};
+
+enum class TurbulenceModel { none, smagorinsky, k_epsilon };
+
+struct TurbulenceOptions {
+  TurbulenceModel model = TurbulenceModel::none;
+  double constant = 0.15;                 ///< C_s of Smagorinsky [-]
+  double initial_k = 1e-6;                ///< [m2/s2], k-epsilon
+  double initial_viscosity_ratio = 10.0;  ///< nu_t / nu at the start [-], k-epsilon
 };
 
 struct FlowOptions {
@@ -55,6 +65,7 @@ struct FlowOptions {
   double pressure_tolerance =
       1e-10;  ///< bound on the largest residual divergence times the step [-]
   std::vector<WaveZoneOptions> waves;
+  TurbulenceOptions turbulence;
   WallLaw wall_law = WallLaw::resolved;
   bool advection = true;  ///< momentum advection (off: Stokes flow, for tests)
   std::optional<std::array<Varying, 3>> body_acceleration;  ///< beside gravity [m/s2]

@@ -16,6 +16,7 @@ Predictor<D>::Predictor(const Grid<D>& grid, const FlowOptions& options)
       gas_viscosity_(options.gas ? options.gas->viscosity : 0.0),
       viscous_(grid),
       body_(grid, options),
+      water_viscosity_(grid, "viscosity", "Pa s", options.viscosity),
       acceleration_(grid, "viscous acceleration", "m/s2") {
   const auto inverse_square = [](double length) { return 1.0 / (length * length); };
   for (int a = 0; a < D; ++a) {
@@ -113,15 +114,18 @@ struct WaterAndGas {
 template <int D>
 void Predictor<D>::find_forces(const PorousMedium<D>& medium, const CellField<D>& porosity,
                                const FaceVector<D>& capacity, const Mixture<D>* mixture,
-                               const FaceVector<D>& velocity, FaceVector<D>& resistance) {
+                               const CellField<D>* eddy, const FaceVector<D>& velocity,
+                               FaceVector<D>& resistance) {
   const Grid<D>& grid = *grid_;
   for (int a = 0; a < D; ++a) {
     double* viscous = acceleration_[a].data();
     const double* rho = mixture ? mixture->density[a].data() : nullptr;
-    if (mixture) {
-      viscous_.find(a, mixture->viscosity, porosity, velocity, acceleration_[a]);
+    if (mixture || eddy) {
+      viscous_.find(a, mixture ? mixture->viscosity : water_viscosity_, eddy,
+                    mixture ? Mean::harmonic : Mean::arithmetic, porosity, velocity,
+                    acceleration_[a]);
       for_each_offset(grid, bounding_faces(grid, a),
-                      [&](std::ptrdiff_t at) { viscous[at] /= rho[at]; });
+                      [&](std::ptrdiff_t at) { viscous[at] /= mixture ? rho[at] : density_; });
     } else {
       find_viscous_acceleration(a, porosity.data(), velocity[a].data(), viscous);
     }
@@ -156,9 +160,10 @@ template <int D>
 void Predictor<D>::advance(const PorousMedium<D>& medium, const CellField<D>& porosity,
                            const FaceVector<D>& capacity, const FaceVector<D>& wall_friction,
                            double time, double dt, const Mixture<D>* mixture,
-                           FaceVector<D>& velocity, FaceVector<D>& mobility) {
+                           const CellField<D>* eddy, FaceVector<D>& velocity,
+                           FaceVector<D>& mobility) {
   const Grid<D>& grid = *grid_;
-  find_forces(medium, porosity, capacity, mixture, velocity, mobility);
+  find_forces(medium, porosity, capacity, mixture, eddy, velocity, mobility);
   for (int a = 0; a < D; ++a) {
     body_.add(a, time + 0.5 * dt, acceleration_[a]);
     const double* viscous = acceleration_[a].data();

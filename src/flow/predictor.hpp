@@ -19,19 +19,21 @@ class Predictor {
   /// a unit pressure gradient changes v by. Drag is implicit in v with |w| of the start of the
   /// step, `time` [s]. Ghosts of all inputs valid; afterwards ghosts of velocity are stale;
   /// mobility holds on owned and bounding faces.
-  /// With a mixture, density, weight and viscosity are its own, and drag is that of its share of
-  /// water and gas: A is proportional to viscosity, B to density.
+  /// `eddy` is the dynamic viscosity of turbulence [Pa s], if any. With a mixture, density, weight
+  /// and viscosity are its own, and drag is that of its share of water and gas: A is proportional
+  /// to viscosity, B to density.
   void advance(const PorousMedium<D>& medium, const CellField<D>& porosity,
                const FaceVector<D>& capacity, const FaceVector<D>& wall_friction, double time,
-               double dt, const Mixture<D>* mixture, FaceVector<D>& velocity,
-               FaceVector<D>& mobility);
+               double dt, const Mixture<D>* mixture, const CellField<D>* eddy,
+               FaceVector<D>& velocity, FaceVector<D>& mobility);
   /// Of the body at a time [s], [m/s2]. Collective.
   double largest_body_acceleration(double time) const { return body_.largest(time); }
 
  private:
   void find_forces(const PorousMedium<D>& medium, const CellField<D>& porosity,
                    const FaceVector<D>& capacity, const Mixture<D>* mixture,
-                   const FaceVector<D>& velocity, FaceVector<D>& resistance);
+                   const CellField<D>* eddy, const FaceVector<D>& velocity,
+                   FaceVector<D>& resistance);
   double water_share(double density) const;
   void find_viscous_acceleration(int component, const double* porosity, const double* velocity,
                                  double* out) const;
@@ -43,6 +45,7 @@ class Predictor {
   std::array<std::vector<double>, D> across_cell_, across_face_;
   ViscousForce<D> viscous_;
   BodyAcceleration<D> body_;
+  CellField<D> water_viscosity_;  ///< the same everywhere [Pa s]
   FaceVector<D> acceleration_;
 };
 

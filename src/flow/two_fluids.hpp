@@ -46,6 +46,9 @@ class TwoFluids {
   /// gas.
   const CellField<D>& with_gas_storage(const CellField<D>& give_way, const CellField<D>& water,
                                        const CellField<D>& porosity, double dt);
+  /// Of the last move_momentum(): mass after it, and what passed each face.
+  const CellField<D>& mass() const { return mass_; }
+  const FaceVector<D>& mass_flux() const { return mass_flux_; }
   bool compressible() const { return gas_.bulk_modulus.has_value(); }
   /// Share of gas in the cells where its pressure is zero: those of the highest layer, or all where
   /// that holds none. For closed boxes. Collective.

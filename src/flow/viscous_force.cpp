@@ -7,16 +7,15 @@
 namespace mudlark {
 namespace {
 
-/// theta mu on the edge between the cells at, at - sa, at - sb and at - sa - sb.
-double edge_viscosity(const double* viscosity, const double* porosity, std::ptrdiff_t at,
-                      std::ptrdiff_t sa, std::ptrdiff_t sb) {
+/// mu on the edge between the cells at, at - sa, at - sb and at - sa - sb.
+double edge_viscosity(const double* viscosity, Mean mean, std::ptrdiff_t at, std::ptrdiff_t sa,
+                      std::ptrdiff_t sb) {
   const double m0 = viscosity[at], m1 = viscosity[at - sa], m2 = viscosity[at - sb],
                m3 = viscosity[at - sa - sb];
-  // Harmonic mean without a division by a viscosity that may be zero.
+  if (mean == Mean::arithmetic) return 0.25 * (m0 + m1 + m2 + m3);
+  if (std::min({m0, m1, m2, m3}) <= 0.0) return 0.0;  // none there, or a wall where it is odd
   const double pairs = m0 * m1 * (m2 + m3) + m2 * m3 * (m0 + m1);
-  if (pairs == 0.0) return 0.0;
-  const double room = porosity[at] + porosity[at - sa] + porosity[at - sb] + porosity[at - sa - sb];
-  return room * m0 * m1 * m2 * m3 / pairs;
+  return 4.0 * m0 * m1 * m2 * m3 / pairs;
 }
 
 }  // namespace
@@ -35,12 +34,13 @@ ViscousForce<D>::ViscousForce(const Grid<D>& grid) : grid_(&grid) {
 
 /// The capacities theta hold the volumes of cells and, divided by the distance across, areas.
 template <int D>
-void ViscousForce<D>::find(int component, const CellField<D>& viscosity,
-                           const CellField<D>& porosity, const FaceVector<D>& velocity,
+void ViscousForce<D>::find(int component, const CellField<D>& viscosity, const CellField<D>* eddy,
+                           Mean mean, const CellField<D>& porosity, const FaceVector<D>& velocity,
                            FaceField<D>& force) const {
   const Grid<D>& grid = *grid_;
   const std::ptrdiff_t sa = grid.stride(component);
   const double *mu = viscosity.data(), *theta = porosity.data(), *v = velocity[component].data();
+  const double* turbulent = eddy ? eddy->data() : nullptr;
   double* out = force.data();
   const auto local = [&](const Index<D>& face, int axis) {
     return static_cast<std::size_t>(face[axis] - grid.local().lower[axis]);
@@ -51,7 +51,8 @@ void ViscousForce<D>::find(int component, const CellField<D>& viscosity,
       grid, bounding_faces(grid, component), [&](std::ptrdiff_t at, const Index<D>& face) {
         const std::size_t i = local(face, component);
         const auto normal = [&](std::ptrdiff_t cell, double inverse) {
-          return 2.0 * theta[cell] * mu[cell] * (v[cell + sa] - v[cell]) * inverse * inverse;
+          const double all = turbulent ? mu[cell] + turbulent[cell] : mu[cell];
+          return 2.0 * theta[cell] * all * (v[cell + sa] - v[cell]) * inverse * inverse;
         };
         double sum = normal(at, widths[i]) - normal(at - sa, widths[i - 1]);
         for (int axis = 0; axis < D; ++axis) {
@@ -63,7 +64,11 @@ void ViscousForce<D>::find(int component, const CellField<D>& viscosity,
           const auto tangential = [&](std::ptrdiff_t edge, double gap) {
             const double rate =
                 (v[edge] - v[edge - s]) * gap + (across[edge] - across[edge - sa]) * gaps[i];
-            return edge_viscosity(mu, theta, edge, sa, s) * rate * gap;
+            double all = edge_viscosity(mu, Mean::harmonic, edge, sa, s);
+            if (turbulent) all += edge_viscosity(turbulent, mean, edge, sa, s);
+            const double room =
+                0.25 * (theta[edge] + theta[edge - sa] + theta[edge - s] + theta[edge - sa - s]);
+            return room * all * rate * gap;
           };
           sum += tangential(at + s, inverse[1]) - tangential(at, inverse[0]);
         }

@@ -7,6 +7,8 @@
 
 namespace mudlark {
 
+enum class Mean { arithmetic, harmonic };
+
 template <int D>
 class ViscousForce {
  public:
@@ -14,9 +16,11 @@ class ViscousForce {
 
   /// (1/theta_f) div(theta mu (grad v + grad v^T)) of one component [N/m3] on bounding faces: per
   /// volume of fluid (NUMERICS B1). On edges mu is the harmonic mean of the four cells around:
-  /// layers that are sheared upon each other carry the same stress. Ghosts of all inputs are valid.
-  void find(int component, const CellField<D>& viscosity, const CellField<D>& porosity,
-            const FaceVector<D>& velocity, FaceField<D>& force) const;
+  /// layers that are sheared upon each other carry the same stress. `eddy` [Pa s], if any, is
+  /// added; on edges its mean is harmonic, too, where two fluids meet, else arithmetic. Ghosts of
+  /// all inputs are valid.
+  void find(int component, const CellField<D>& viscosity, const CellField<D>* eddy, Mean mean,
+            const CellField<D>& porosity, const FaceVector<D>& velocity, FaceField<D>& force) const;
 
  private:
   const Grid<D>* grid_;

@@ -42,7 +42,9 @@ void add_friction(const Grid<D>& grid, const FlowOptions& options, int axis, int
     const double film = h * std::clamp(first + second, thinnest_film, 1.0);
     const double speed = std::sqrt(speed2);
     const double resolved = 2.0 * options.viscosity * speed / film;
-    const double stress = werner_wengle_stress(speed, film, options.density, nu);
+    const double stress = options.wall_law == WallLaw::logarithmic
+                              ? log_law_stress(speed, 0.5 * film, options.density, nu)
+                              : werner_wengle_stress(speed, film, options.density, nu);
     double beyond = stress > resolved ? (stress - resolved) / (speed * film) : 0.0;
     if (options.gas) beyond *= std::min((first + second) / thinnest_film, 1.0);  // none on gas
     out[at] += beyond;
@@ -60,6 +62,23 @@ double werner_wengle_stress(double speed, double thickness, double density, doub
       0.5 * (1.0 - b) * std::pow(a, (1.0 + b) / (1.0 - b)) * std::pow(per_thickness, 1.0 + b) +
       (1.0 + b) / a * std::pow(per_thickness, b) * speed;
   return density * std::pow(friction, 2.0 / (1.0 + b));
+}
+
+/// Newton's method for x = u / u_tau, x = ln(E Re / x) / kappa with Re = u y / nu.
+double log_law_stress(double speed, double distance, double density, double viscosity) {
+  constexpr double roughness = 9.8;  // E of a smooth wall
+  const double reynolds = speed * distance / viscosity;
+  if (reynolds <= sublayer_thickness * sublayer_thickness)
+    return density * viscosity * speed / distance;
+  double x = sublayer_thickness;
+  for (int k = 0; k < 20; ++k) {
+    const double miss = x - std::log(roughness * reynolds / x) / von_karman;
+    const double step = miss / (1.0 + 1.0 / (von_karman * x));
+    x -= step;
+    if (std::abs(step) < 1e-12 * x) break;
+  }
+  const double u_tau = speed / x;
+  return density * u_tau * u_tau;
 }
 
 template <int D>

@@ -26,6 +26,7 @@ inline constexpr Quantity viscosity{"a dynamic viscosity", "Pa s", "\"1.002e-3 P
 inline constexpr Quantity velocity{"a velocity", "m/s", "\"1e-4 cm/s\""};
 inline constexpr Quantity rate{"a rate", "1/s", "\"2 s-1\""};
 inline constexpr Quantity acceleration{"an acceleration", "m/s2", "\"9.81 m/s2\""};
+inline constexpr Quantity specific_energy{"an energy per mass", "m2/s2", "\"1e-4 m2/s2\""};
 inline constexpr Quantity permeability{"an intrinsic permeability", "m2", "\"1e-10 m2\""};
 inline constexpr Quantity forchheimer{"a Forchheimer coefficient B of (A + B|w|) w", "kg/m4",
                                       "\"5e5 kg/m4\""};

@@ -175,9 +175,14 @@ void read_flow_solver(Section& root, FlowOptions& flow, std::optional<double> co
   flow.advection = section.flag("advection", flow.advection);
   if (section.has("body_acceleration"))
     flow.body_acceleration = section.varying_per_axis("body_acceleration", quantity::acceleration);
-  flow.wall_law = section.choice<WallLaw>(
-      "wall_law", {{"resolved", WallLaw::resolved}, {"werner-wengle", WallLaw::werner_wengle}},
-      flow.wall_law);
+  flow.wall_law = section.choice<WallLaw>("wall_law",
+                                          {{"resolved", WallLaw::resolved},
+                                           {"werner-wengle", WallLaw::werner_wengle},
+                                           {"log", WallLaw::logarithmic}},
+                                          flow.wall_law);
+  if (flow.turbulence.model == TurbulenceModel::k_epsilon && flow.wall_law != WallLaw::logarithmic)
+    section.fail("wall_law", "k-epsilon does not hold in the sublayer at walls: it needs \"log\"",
+                 "Leave wall_law out.");
   section.finish();
 }
 

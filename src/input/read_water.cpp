@@ -69,9 +69,13 @@ WaterProperties read_water(Section& root, CaseOptions& options) {
     flow.density = water.density;
     flow.viscosity = water.viscosity;
     flow.gas = std::move(gas);
+    flow.turbulence = read_turbulence(section);
+    if (flow.turbulence.model == TurbulenceModel::k_epsilon) flow.wall_law = WallLaw::logarithmic;
     read_bodies(section, flow);
     options.flow = std::move(flow);
-  }
+  } else if (section.has("turbulence"))
+    section.fail("turbulence", "it belongs to flowing water, but there is no [[water.body]]",
+                 "Leave it out, or place water.");
   section.finish();
   return water;
 }

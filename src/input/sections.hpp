@@ -42,6 +42,8 @@ std::size_t read_stage_of_soil(Section& soil, const std::vector<Stage>& stages);
 /// Returns [time] courant, which holds for both solvers.
 std::optional<double> read_time(Section& root, CaseOptions& options);
 WaterProperties read_water(Section& root, CaseOptions& options);
+/// [water.turbulence]
+TurbulenceOptions read_turbulence(Section& water);
 void read_porous(Section& root, CaseOptions& options, std::vector<NamedShape>& grounds);
 void read_soil(Section& root, CaseOptions& options, const WaterProperties& water,
                const std::vector<Stage>& stages, std::vector<NamedShape>& grounds);

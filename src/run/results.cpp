@@ -189,6 +189,8 @@ void Results<D>::write_fields(World<D>& world) {
   std::optional<CellField<D>> per_cell;
   if (FlowSolver<D>* flow = world.flow()) {
     cells = {&flow->saturation(), &per_cell.emplace(water_per_cell(world)), &flow->pressure()};
+    if (flow->turbulence())
+      for (const CellField<D>* field : flow->turbulence()->fields()) cells.push_back(field);
     faces = {&flow->velocity()};
   }
   cells.push_back(&world.medium().porosity);
