@@ -3,7 +3,8 @@
 
 namespace mudlark {
 
-enum class CouplingMode { none, surface };
+/// surface: free and pore water meet at the soil's surface. unified: they are one water.
+enum class CouplingMode { none, surface, unified };
 /// Pore water at the soil's surface: consistent: p_soil = p_water; load_only: the water's pressure
 /// loads the skeleton, the pore water drains at zero pressure (the paper's benchmark); membrane: no
 /// relative flux.

@@ -18,6 +18,14 @@ namespace {
 /// Share of the drift between transported and given porosity that one step takes back (NUMERICS C2
 /// step 6).
 constexpr double drift_feedback = 0.1;
+/// With grains that give way to pressure it is taken back no faster than waves of one cell take:
+/// what the points' places scatter would otherwise be pressure, and the more the shorter the steps
+/// are (docs/decisions/0070).
+template <int D>
+double slow_feedback(const Grid<D>& grid) {
+  const double gravity = norm(grid.gravity());
+  return gravity > 0.0 ? std::sqrt(gravity / grid.smallest_spacing()) : HUGE_VAL;
+}
 /// W may leave 0..theta by no more than this: round-off of the sweeps.
 constexpr double bound_tolerance = 1e-12;
 /// Less water than this does not limit the step: what it could overshoot by is far within the
@@ -153,7 +161,7 @@ void FlowSolver<D>::find_unknowns() {
 template <int D>
 void FlowSolver<D>::project_start(const PorousMedium<D>& medium) {
   const Grid<D>& grid = *grid_;
-  find_target(medium, 0.0);
+  find_target(medium, 0.0, HUGE_VAL);
   for (int a = 0; a < D; ++a) {
     mobility_[a].fill(1.0 / options_.density);
     if (!gas_) continue;
@@ -202,7 +210,7 @@ void FlowSolver<D>::find_flux() {
 /// Divergence that the water's flux must have: minus that of the grains, plus the share of the
 /// drift between the transported porosity and the medium's that is taken back.
 template <int D>
-void FlowSolver<D>::find_target(const PorousMedium<D>& medium, double dt) {
+void FlowSolver<D>::find_target(const PorousMedium<D>& medium, double dt, double most) {
   const Grid<D>& grid = *grid_;
   const double* theta = porosity_.data();
   const double* porosity = medium.porosity.data();
@@ -210,8 +218,8 @@ void FlowSolver<D>::find_target(const PorousMedium<D>& medium, double dt) {
   double* target = target_.data();
   for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) {
     const double given = volume[at] * porosity[at];
-    const double share = porosity[at] < 1.0 ? drift_feedback : 1.0;
-    target[at] = dt > 0.0 ? share * (theta[at] - given) / dt : 0.0;
+    const double rate = porosity[at] < 1.0 ? std::min(drift_feedback / dt, most) : 1.0 / dt;
+    target[at] = dt > 0.0 ? rate * (theta[at] - given) : 0.0;
   });
   for (int a = 0; a < D; ++a) {
     const std::ptrdiff_t s = grid.stride(a);
@@ -267,7 +275,7 @@ void FlowSolver<D>::transport(const PorousMedium<D>& medium, double dt) {
 }
 
 template <int D>
-void FlowSolver<D>::advance(const PorousMedium<D>& medium, double dt) {
+void FlowSolver<D>::advance(const PorousMedium<D>& medium, double dt, MovingGrains<D>* grains) {
   check_step(dt);
   transport(medium, dt);
   if (!waves_.empty()) make_waves(dt);
@@ -279,19 +287,36 @@ void FlowSolver<D>::advance(const PorousMedium<D>& medium, double dt) {
   predictor_.advance(medium, porosity_, capacity_, wall_friction_, time_, dt,
                      gas_ ? &gas_->mixture() : nullptr,
                      turbulence_ ? &turbulence_->viscosity() : nullptr, velocity_, mobility_);
-  find_target(medium, dt);
+  find_target(medium, dt, grains ? slow_feedback(*grid_) : HUGE_VAL);
   const bool gas_gives_way = gas_ && gas_->compressible();
   const CellField<D>& give_way =
       gas_gives_way ? gas_->with_gas_storage(medium.give_way, water_, porosity_, dt)
                     : medium.give_way;
-  last_solve_ = projection_.project(capacity_, mobility_, target_, give_way, pressure_, velocity_,
-                                    options_.pressure_tolerance / dt);
+  if (grains)
+    project_with_grains(give_way, dt, *grains);
+  else
+    last_solve_ = projection_.project(capacity_, mobility_, target_, give_way, pressure_, velocity_,
+                                      options_.pressure_tolerance / dt);
   ghosts_.update_velocity(velocity_);
   if (!gas_) extension_.extend(projection_.unknown(), water_, porosity_, velocity_);
   check_finite();
   if (turbulence_) turbulence_->find(medium, saturation_, velocity_);
   step_ += 1;
   time_ += dt;
+}
+
+/// One pressure makes the flux of water and grains together free of divergence and moves both.
+template <int D>
+void FlowSolver<D>::project_with_grains(const CellField<D>& give_way, double dt,
+                                        MovingGrains<D>& grains) {
+  if (!with_grains_) with_grains_.emplace(*grid_);
+  GrainsInWater<D>& both = *with_grains_;
+  both.couple(capacity_, water_, porosity_, projection_.unknown(), dt, velocity_, mobility_,
+              grains);
+  last_solve_ = projection_.project(both.whole(), both.flux_mobility(), target_, give_way,
+                                    pressure_, both.flux(), options_.pressure_tolerance / dt);
+  projection_.push(mobility_, pressure_, velocity_);
+  projection_.push(both.grain_mobility(), pressure_, grains.velocity);
 }
 
 /// The water is at the end of the step, the velocity still at its start: gravity and pressure come

@@ -12,8 +12,10 @@
 /// So at the end of a step surface, velocity and pressure belong to the same time, and the bound
 /// that stable_step() gives is exact for the transport that follows.
 #include <cstdint>
+#include <optional>
 
 #include "flow/fixed_ground.hpp"
+#include "flow/moving_grains.hpp"
 #include "flow/options.hpp"
 #include "flow/porous_medium.hpp"
 #include "flow/predictor.hpp"
@@ -54,7 +56,10 @@ class FlowSolver {
   /// One step of dt [s]. Throws DivergenceError (on all ranks) when dt is too large for the
   /// velocity, when a bound is broken, when the pressure does not converge or when a number is no
   /// longer finite.
-  void advance(const PorousMedium<D>& medium, double dt);
+  /// With `grains` they share the pressure with the water, and their velocity is that after the
+  /// step (NUMERICS C2); `medium` then says where they are, its flux and drag only what else there
+  /// is. Fields of `grains` valid on owned and bounding faces.
+  void advance(const PorousMedium<D>& medium, double dt, MovingGrains<D>* grains = nullptr);
 
   const CellField<D>& pressure() const { return pressure_; }      ///< [Pa], above that of still air
   const CellField<D>& saturation() const { return saturation_; }  ///< alpha = W / theta [-]
@@ -108,12 +113,13 @@ class FlowSolver {
   void transport(const PorousMedium<D>& medium, double dt);
   void find_capacity(const PorousMedium<D>& medium);
   void find_flux();
-  void find_target(const PorousMedium<D>& medium, double dt);
+  void find_target(const PorousMedium<D>& medium, double dt, double most);
   void add_outflow();
   void make_waves(double dt);
   void project_start(const PorousMedium<D>& medium);
   void find_unknowns();
   bool incompressible(double water, double porosity) const;
+  void project_with_grains(const CellField<D>& give_way, double dt, MovingGrains<D>& grains);
   void check_bounds() const;
   void check_finite() const;
   double courant_rate() const;
@@ -130,6 +136,7 @@ class FlowSolver {
   WaveZones<D> waves_;
   std::optional<TwoFluids<D>> gas_;
   std::optional<Turbulence<D>> turbulence_;
+  std::optional<GrainsInWater<D>> with_grains_;
   CellField<D> water_, porosity_, pressure_, saturation_;
   FaceVector<D> velocity_;
   CellField<D> old_water_, new_porosity_, target_, no_storage_;

@@ -215,7 +215,7 @@ SolveReport Projection<D>::project(const FaceVector<D>& capacity, const FaceVect
     if (unknown[at] == 0.0) p[at] = 0.0;  // atmosphere
   });
   ghosts_.update(pressure);
-  correct(mobility, pressure, velocity);
+  push(mobility, pressure, velocity);
   risen_.fill(0.0);
   SolveReport report;
   for (int pass = 0; pass < most_passes && !report.converged; ++pass) {
@@ -227,7 +227,7 @@ SolveReport Projection<D>::project(const FaceVector<D>& capacity, const FaceVect
     const SolveReport pass_report =
         solver_.solve(system_, rise_, std::max(0.1 * tolerance, pass_reduction * left));
     report.iterations += pass_report.iterations;
-    correct(mobility, rise_, velocity);
+    push(mobility, rise_, velocity);
     const double* rise = rise_.data();
     for_each_offset(grid, grid.local(), [&](std::ptrdiff_t at) {
       p[at] += rise[at];
@@ -306,8 +306,8 @@ void Projection<D>::fix_constant(CellField<D>& pressure) {
 }
 
 template <int D>
-void Projection<D>::correct(const FaceVector<D>& mobility, const CellField<D>& pressure,
-                            FaceVector<D>& velocity) const {
+void Projection<D>::push(const FaceVector<D>& mobility, const CellField<D>& pressure,
+                         FaceVector<D>& velocity) const {
   const Grid<D>& grid = *grid_;
   const double* unknown = unknown_.data();
   const double* p = pressure.data();

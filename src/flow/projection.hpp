@@ -31,6 +31,11 @@ class Projection {
                       const CellField<D>& target, const CellField<D>& give_way,
                       CellField<D>& pressure, FaceVector<D>& velocity, double tolerance);
 
+  /// velocity -= mobility grad p, with the distances to the surface of find_surface(), on owned and
+  /// bounding faces.
+  void push(const FaceVector<D>& mobility, const CellField<D>& pressure,
+            FaceVector<D>& velocity) const;
+
   const CellField<D>& unknown() const { return unknown_; }  ///< 1 in cells with a pressure unknown
 
  private:
@@ -44,8 +49,6 @@ class Projection {
                   const FaceVector<D>& velocity);
   bool assemble_faces(const FaceVector<D>& capacity, const FaceVector<D>& mobility,
                       const FaceVector<D>& velocity);
-  void correct(const FaceVector<D>& mobility, const CellField<D>& pressure,
-               FaceVector<D>& velocity) const;
   void fix_constant(CellField<D>& pressure);
 
   const Grid<D>* grid_;

@@ -45,6 +45,7 @@ CaseOptions read_case(const std::filesystem::path& file, std::span<const std::st
   read_solvers(root, options, courant);
   finish_stages(stages, options);
   check_boundaries(root, options);
+  check_unified(root, options);
   read_gauges(root, options);
   check_overlaps(reading, grounds);
   if (!root.has("soil") && !options.flow)

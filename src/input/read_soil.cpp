@@ -129,25 +129,33 @@ void read_formulation(Section& section, const WaterProperties& water, SoilOption
 
 void read_pore_water(Section& section, SoilBody& body, const WaterProperties& water,
                      SoilOptions& soil) {
-  body.pore_water = section.choice<PoreWater>(
-      "pore_water", {{"two-phase", PoreWater::two_phase}, {"none", PoreWater::none}},
-      body.pore_water, {"unified"});
+  body.pore_water = section.choice<PoreWater>("pore_water",
+                                              {{"two-phase", PoreWater::two_phase},
+                                               {"none", PoreWater::none},
+                                               {"unified", PoreWater::unified}},
+                                              body.pore_water);
   const bool wet = body.pore_water == PoreWater::two_phase;
+  const bool unified = body.pore_water == PoreWater::unified;
   if (wet)
     read_formulation(section, water, soil);
   else
-    section.forbid("formulation", "pore_water = \"none\" has no pore water to formulate");
+    section.forbid("formulation", unified ? "pore_water = \"unified\" has one: that of the flow"
+                                          : "pore_water = \"none\" has no pore water to formulate");
   body.intrinsic_permeability =
-      read_permeability(section, water.density, water.viscosity, wet).value_or(0.0);
+      read_permeability(section, water.density, water.viscosity, wet || unified).value_or(0.0);
   body.permeability_law = section.choice<PermeabilityLaw>(
       "permeability_law",
       {{"constant", PermeabilityLaw::constant}, {"kozeny-carman", PermeabilityLaw::kozeny_carman}},
       body.permeability_law);
+  if (unified && body.permeability_law != PermeabilityLaw::constant)
+    section.fail("permeability_law", "pore_water = \"unified\" has a constant permeability so far");
   if (section.has("initial_pore_pressure")) {
     if (wet)
       body.initial_pore_pressure = section.varying("initial_pore_pressure", quantity::pressure, {});
     else
-      section.forbid("initial_pore_pressure", "pore_water = \"none\" has no pore pressure");
+      section.forbid("initial_pore_pressure",
+                     unified ? "the pressure at the start is that of the flow's water at rest"
+                             : "pore_water = \"none\" has no pore pressure");
   }
 }
 

@@ -260,12 +260,19 @@ void read_coupling(Section& root, CaseOptions& options) {
   if (!root.has("coupling") && !(options.flow && options.soil)) return;
   Section section = root.table("coupling", Record::Form::block);
   CouplingOptions& coupling = options.coupling;
-  coupling.mode = section.choice<CouplingMode>(
-      "mode", {{"none", CouplingMode::none}, {"surface", CouplingMode::surface}}, coupling.mode,
-      {"unified"});
-  if (coupling.mode == CouplingMode::surface && !(options.flow && options.soil))
+  coupling.mode = section.choice<CouplingMode>("mode",
+                                               {{"none", CouplingMode::none},
+                                                {"surface", CouplingMode::surface},
+                                                {"unified", CouplingMode::unified}},
+                                               coupling.mode);
+  if (coupling.mode != CouplingMode::none && !(options.flow && options.soil))
     section.fail("mode", fmt::format("it joins flowing water and soil, and the case has no {}",
                                      options.soil ? "[[water.body]]" : "[[soil]]"));
+  if (coupling.mode == CouplingMode::unified) {
+    for (const char* key : {"mudline", "pressure_in_time", "ramp", "added_mass_factor"})
+      section.forbid(key, "it is for mode = \"surface\": with one water nothing is handed over");
+    return section.finish();
+  }
   coupling.mudline = section.choice<Mudline>("mudline",
                                              {{"consistent", Mudline::consistent},
                                               {"load-only", Mudline::load_only},

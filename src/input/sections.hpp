@@ -88,6 +88,8 @@ Bounds mass_scaling_bounds();
 TimeMethod read_time_method(Section& section, std::optional<TimeMethod> fallback);
 RestCriterion read_rest(Section& parent, double longest);
 void read_coupling(Section& root, CaseOptions& options);
+/// What pore_water = "unified" goes with, after everything else of soil, flow and coupling.
+void check_unified(Section& root, CaseOptions& options);
 void read_gauges(Section& root, CaseOptions& options);
 /// section = { x = 2.0, from = 0.3, to = 0.8, direction = "negative" } of a gauge.
 void read_gauge_section(Section& gauge, GaugeRange& range);

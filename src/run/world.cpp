@@ -52,13 +52,17 @@ World<D>::World(const CaseOptions& options, MPI_Comm comm)
     coupling_.emplace(grid_, options.coupling, *options.flow, *soil_);
     load_.emplace(grid_);
   }
+  if (flow_ && soil_ && options.coupling.mode == CouplingMode::unified)
+    unified_.emplace(grid_, *flow_, *soil_);
 }
 
 template <int D>
 void World<D>::initialise() {
   if (soil_) soil_->initialise();
   if (coupling_) coupling_->map_soil_to_grid(*soil_, fixed_, medium_);
+  if (unified_) unified_->map_soil_to_grid(*soil_, fixed_, medium_);
   if (flow_) flow_->initialise(medium_);
+  if (unified_) unified_->initialise(*flow_, *soil_);
   if (coupling_) coupling_->initialise(*flow_, *soil_, *load_);
   ledger_ = open_ledger(*this);
 }
@@ -69,6 +73,7 @@ void World<D>::restore() {
     soil_->apply_stage(clock_.stage());
     soil_->redistribute();
   }
+  if (unified_) unified_->map_soil_to_grid(*soil_, fixed_, medium_);
   if (!coupling_) return;
   coupling_->restore();
   coupling_->map_soil_to_grid(*soil_, fixed_, medium_);
@@ -76,14 +81,19 @@ void World<D>::restore() {
 
 template <int D>
 double World<D>::stable_step() {
+  if (unified_) return std::min(flow_->stable_step(medium_), soil_->stable_step());
   if (flow_) return flow_->stable_step(medium_);
   return soil_->outer_step();
 }
 
 template <int D>
 void World<D>::advance(double dt) {
-  if (flow_) advance_flow(dt);
-  if (soil_) advance_soil(dt);
+  if (unified_) {
+    advance_together(dt);
+  } else {
+    if (flow_) advance_flow(dt);
+    if (soil_) advance_soil(dt);
+  }
   clock_.advance(dt);
   effort_.largest_step = std::max(effort_.largest_step, dt);
   effort_.smallest_step = effort_.smallest_step > 0.0 ? std::min(effort_.smallest_step, dt) : dt;
@@ -134,6 +144,32 @@ void World<D>::advance_flow(double dt) {
   if (!coupling_) return;
   const Stopwatch watch(effort_.mapping);
   coupling_->map_flow_at_end(*flow_, *soil_, time + dt, *load_);
+}
+
+/// One step of one water (NUMERICS C2): the points move, then the water, then one pressure
+/// moves both.
+template <int D>
+void World<D>::advance_together(double dt) {
+  {
+    const Stopwatch watch(effort_.soil);
+    unified_->move_grains(*soil_, dt);
+  }
+  {
+    const Stopwatch watch(effort_.mapping);
+    unified_->map_soil_to_grid(*soil_, fixed_, medium_);
+  }
+  {
+    const Stopwatch watch(effort_.soil);
+    unified_->load_grains(*soil_, dt);
+  }
+  const Stopwatch watch(effort_.flow);
+  flow_->advance(medium_, dt, &unified_->grains());
+  unified_->follow_water(*flow_, *soil_);
+  meters_.read(*flow_, dt);
+  effort_.soil_steps += 1;
+  effort_.largest_soil_step = std::max(effort_.largest_soil_step, dt);
+  effort_.smallest_soil_step =
+      effort_.smallest_soil_step > 0.0 ? std::min(effort_.smallest_soil_step, dt) : dt;
 }
 
 template <int D>

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "coupling/surface_coupling.hpp"
+#include "coupling/unified_coupling.hpp"
 #include "flow/flow_solver.hpp"
 #include "run/clock.hpp"
 #include "run/flow_meters.hpp"
@@ -65,11 +66,13 @@ class World {
     if (flow_) flow_->archive(a);
     if (soil_) soil_->archive(a);
     if (coupling_) coupling_->archive(a);
+    if (unified_) unified_->archive(a);
   }
 
  private:
   void advance_flow(double dt);
   void advance_soil(double dt);
+  void advance_together(double dt);
   bool at_rest();
 
   CaseOptions options_;
@@ -79,6 +82,7 @@ class World {
   std::optional<FlowSolver<D>> flow_;
   std::optional<SoilSolver<D>> soil_;
   std::optional<SurfaceCoupling<D>> coupling_;
+  std::optional<UnifiedCoupling<D>> unified_;
   std::optional<FluidLoad<D>> load_;
   Ledger<D> ledger_;
   FlowMeters<D> meters_;

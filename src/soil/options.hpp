@@ -15,7 +15,8 @@
 
 namespace mudlark {
 
-enum class PoreWater { none, two_phase };
+/// two_phase: the points carry it; unified: it is the flow's water, on the grid.
+enum class PoreWater { none, two_phase, unified };
 enum class PermeabilityLaw { constant, kozeny_carman };
 
 struct GeostaticStress {
@@ -107,6 +108,7 @@ struct SoilOptions {
   std::vector<SurfaceLoad> loads;
   std::vector<SolidOptions> solids;
   std::vector<SoilBoundary> boundaries;
+  std::vector<Shape> flooded;  ///< where soil whose water is the flow's stands in it at the start
   double water_density = 1000.0;       ///< pore water [kg/m3]
   double water_viscosity = 1.002e-3;   ///< [Pa s]
   double water_bulk_modulus = 2.15e9;  ///< [Pa]; infinite: incompressible (u_w_p only)

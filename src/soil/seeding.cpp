@@ -48,8 +48,13 @@ int body_at(const SoilOptions& options, std::size_t stage, const Point3& place) 
 }
 
 /// Weight that grains give to those below them, per volume [N/m^D].
-double submerged_unit_weight(const SoilOptions& options, const SoilBody& body, double gravity) {
-  const double buoyancy = body.pore_water == PoreWater::none ? 0.0 : options.water_density;
+double submerged_unit_weight(const SoilOptions& options, const SoilBody& body, const Point3& place,
+                             double gravity) {
+  const auto floods = [&](const Shape& water) { return water.contains(place); };
+  const bool wet = body.pore_water == PoreWater::two_phase ||
+                   (body.pore_water == PoreWater::unified &&
+                    std::any_of(options.flooded.begin(), options.flooded.end(), floods));
+  const double buoyancy = wet ? options.water_density : 0.0;
   return (1.0 - body.porosity) * (body.grain_density - buoyancy) * gravity;
 }
 
@@ -69,8 +74,8 @@ Overburden overburden(const Grid<D>& grid, const SoilOptions& options, std::size
     const int number = body_at(options, stage, to_point3(x));
     if (number < 0) continue;
     const SoilBody& body = options.bodies[static_cast<std::size_t>(number)];
-    sum.effective += share * step * submerged_unit_weight(options, body, gravity);
-    if (body.pore_water != PoreWater::none)
+    sum.effective += share * step * submerged_unit_weight(options, body, to_point3(x), gravity);
+    if (body.pore_water == PoreWater::two_phase)
       sum.water += share * step * options.water_density * gravity;
   }
   return sum;
@@ -146,7 +151,7 @@ void set_initial_stress(const Grid<D>& grid, const SoilOptions& options, std::si
         const Overburden above = overburden(grid, options, stage, bodies[b].position_of(p), step);
         stress.zz = -above.effective;
         stress.xx = stress.yy = -k0 * above.effective;
-        if (body.pore_water != PoreWater::none) pore_pressure = above.water;
+        if (body.pore_water == PoreWater::two_phase) pore_pressure = above.water;
       }
       if (body.initial_pore_pressure)
         pore_pressure += (*body.initial_pore_pressure)(to_point3(bodies[b].position_of(p)), 0.0);

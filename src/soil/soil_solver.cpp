@@ -71,7 +71,7 @@ SoilSolver<D>::SoilSolver(const Grid<D>& grid, const SoilOptions& options)
     const bool wet = body.pore_water == PoreWater::two_phase;
     constants_.push_back({body.grain_density, body.porosity, wet ? options.water_density : 0.0,
                           options.water_viscosity, body.intrinsic_permeability,
-                          body.permeability_law});
+                          body.permeability_law, body.pore_water == PoreWater::unified});
     laws_.push_back(make_soil_model(body.law));
     if (!laws_.back()->supports(body.strain))
       throw InputError(fmt::format("soil {}: law {} cannot be used with this strain measure",
@@ -409,7 +409,7 @@ void SoilSolver<D>::solid_fraction(CellField<D>& fraction, CellField<D>& resista
   for (std::size_t b = 0; b < points_.size(); ++b) {
     const BodyConstants& body = constants_[b];
     add_solid_fraction(*grid_, points_[b], body.grain_density, options_.kernel, 1.0, fraction);
-    if (body.water_density == 0.0) continue;
+    if (body.water_density == 0.0 && !body.in_grid_water) continue;
     const double drag =
         body.water_viscosity / (body.intrinsic_permeability * (1.0 - body.start_porosity));
     add_solid_fraction(*grid_, points_[b], body.grain_density, options_.kernel, drag, resistance);
@@ -424,7 +424,7 @@ void SoilSolver<D>::solid_fraction(CellField<D>& fraction, CellField<D>& resista
 template <int D>
 void SoilSolver<D>::set_pore_pressure(const CellField<D>& pressure) {
   for (std::size_t b = 0; b < points_.size(); ++b) {
-    if (constants_[b].water_density == 0.0) continue;
+    if (constants_[b].water_density == 0.0 && !constants_[b].in_grid_water) continue;
     auto& points = points_[b];
     points.pore_pressure = sample_at_points(*grid_, points, options_.kernel, pressure);
     if (const auto& excess = options_.bodies[b].initial_pore_pressure)

@@ -96,7 +96,8 @@ void SoilSolver<D>::place_bodies(std::size_t stage) {
 
 template <int D>
 bool SoilSolver<D>::keeps_energy() const {
-  return *defaults_.method == TimeMethod::explicit_steps &&
+  return *defaults_.method == TimeMethod::explicit_steps && !options_.bodies.empty() &&
+         options_.bodies.front().pore_water != PoreWater::unified &&
          std::none_of(options_.stages.begin(), options_.stages.end(), [](const SoilStage& stage) {
            return stage.method == TimeMethod::implicit_steps;
          });

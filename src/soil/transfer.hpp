@@ -24,6 +24,7 @@ struct BodyConstants {
   double water_viscosity;         ///< [Pa s]
   double intrinsic_permeability;  ///< at the start [m2]
   PermeabilityLaw permeability_law;
+  bool in_grid_water = false;  ///< the pores hold water of the flow
 };
 
 /// kappa [m2] at porosity n: constant, or Kozeny-Carman kappa_0 (n/n_0)^3 ((1-n_0)/(1-n))^2.

@@ -32,6 +32,8 @@ TEST_F(Ranks, GiveTheSameDamBreakOverASlopingBedIn3D) {
   expect_the_same_on_all_ranks("dam_on_bed_3d");
 }
 
+TEST_F(Ranks, GiveTheSameDamBreakWithOneWater) { expect_the_same_on_all_ranks("one_water_2d"); }
+
 TEST_F(Ranks, GiveTheSameThrownBlockOfSoilIn3D) { expect_the_same_on_all_ranks("soil_3d"); }
 
 TEST_F(Ranks, GiveTheSameLumpWhosePointsAreSplit) { expect_the_same_on_all_ranks("drawn"); }

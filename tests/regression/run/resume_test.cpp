@@ -77,6 +77,9 @@ TEST_F(Resume, AfterKillsGivesTheSameBitsOfACoupledRunOnTwoRanks) {
 TEST_F(Resume, AfterKillsGivesTheSameBitsOfACoupledRunIn3D) {
   kill_and_resume("dam_on_bed_3d", 2, 2, 3);
 }
+TEST_F(Resume, AfterKillsGivesTheSameBitsOfARunWithOneWater) {
+  kill_and_resume("one_water_2d", 2, 2, 8);
+}
 TEST_F(Resume, AfterKillsGivesTheSameBitsOfSoilAlone) { kill_and_resume("soil_3d", 1, 3, 4); }
 TEST_F(Resume, AfterKillsGivesTheSameBitsOfSplitPoints) { kill_and_resume("drawn", 2, 2, 6); }
 /// On one rank: the direct solver of implicit steps sums up what other ranks send as it arrives.

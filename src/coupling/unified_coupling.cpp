@@ -1,0 +1,119 @@
+#include "coupling/unified_coupling.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace mudlark {
+namespace {
+
+/// Porosity that the water never goes below, so that squeezed cells keep an equation.
+constexpr double least_porosity = 0.05;
+/// Faces with fewer grains than this share of a cell carry none: their velocity is round-off.
+constexpr double least_share = 1e-9;
+
+}  // namespace
+
+template <int D>
+UnifiedCoupling<D>::UnifiedCoupling(const Grid<D>& grid, const FlowSolver<D>&,
+                                    const SoilSolver<D>& soil)
+    : grid_(&grid),
+      halo_(grid),
+      grain_density_(soil.options().bodies.front().grain_density),
+      fraction_(grid, "solid fraction", "1"),
+      resistance_(grid, "resistance", "Pa s/m2"),
+      pressure_(grid, "pressure", "Pa"),
+      grains_(grid),
+      change_(grid, "grain change", "m/s"),
+      before_(grid, "grain velocity before", "m/s") {}
+
+template <int D>
+void UnifiedCoupling<D>::map_soil_to_grid(SoilSolver<D>& soil, const PorousMedium<D>& fixed,
+                                          PorousMedium<D>& medium) {
+  soil.solid_fraction(fraction_, resistance_);
+  for_each(grid_->local(), [&](const Index<D>& cell) {
+    medium.porosity[cell] = std::max(least_porosity, fixed.porosity[cell] - fraction_[cell]);
+  });
+  for (int a = 0; a < D; ++a) {
+    IndexBox<D> faces = grid_->local();
+    ++faces.lower[a];
+    for_each(faces, [&](const Index<D>& face) {
+      grains_.resistance[a][face] = 0.5 * (resistance_[face.shifted(a, -1)] + resistance_[face]);
+    });
+  }
+}
+
+template <int D>
+void UnifiedCoupling<D>::move_grains(SoilSolver<D>& soil, double dt) {
+  soil.move_with(grains_.velocity, change_, dt);
+}
+
+/// Sums of the points as densities. The share of the grains is that of their mass on the same
+/// face, not one minus the cells' porosity: then grains at rest in water at rest weigh exactly what
+/// they weigh under water, wherever the points stand (docs/decisions/0070).
+template <int D>
+void UnifiedCoupling<D>::load_grains(SoilSolver<D>& soil, double dt) {
+  const NodeField<NodeSums, D>& sums = soil.load_faces(dt);
+  const double per_volume = 1.0 / grid_->cell_volume();
+  for (int a = 0; a < D; ++a) {
+    const auto& field = sums[static_cast<std::size_t>(a)];
+    for_each(grid_->owned_faces(a), [&](const Index<D>& face) {
+      const bool inside = soil.active().contains(face);
+      const NodeSums sum = inside ? field[face] : NodeSums{};
+      const double share = sum.grain_mass * per_volume / grain_density_;
+      const bool carries = share > least_share;
+      grains_.share[a][face] = carries ? share : 0.0;
+      grains_.inertia[a][face] = carries ? sum.grain_mass * per_volume : 0.0;
+      grains_.force[a][face] = carries ? sum.mixture_force * per_volume : 0.0;
+      grains_.velocity[a][face] = carries ? sum.grain_momentum / sum.grain_mass : 0.0;
+    });
+    before_[a].copy_values_from(grains_.velocity[a]);
+  }
+  for (FaceVector<D>* field : {&grains_.share, &grains_.inertia, &grains_.force, &grains_.velocity})
+    halo_.exchange(*field);
+}
+
+template <int D>
+void UnifiedCoupling<D>::follow_water(const FlowSolver<D>& flow, SoilSolver<D>& soil) {
+  for (int a = 0; a < D; ++a)
+    for_each(grid_->owned_faces(a), [&](const Index<D>& face) {
+      change_[a][face] = grains_.velocity[a][face] - before_[a][face];
+    });
+  note_pore_pressure(flow, soil);
+}
+
+/// What points show as pore pressure. Behind closed sides it goes on straight, or points beside a
+/// floor would show less than their depth.
+template <int D>
+void UnifiedCoupling<D>::note_pore_pressure(const FlowSolver<D>& flow, SoilSolver<D>& soil) {
+  pressure_.copy_values_from(flow.pressure());
+  for (int axis = 0; axis < D; ++axis)
+    for (int side = 0; side < 2; ++side) {
+      if (!grid_->touches(axis, side) || grid_->wall(axis, side) == Wall::open) continue;
+      IndexBox<D> behind = grid_->local();
+      behind.lower[axis] = side == 0 ? -2 : grid_->cells()[axis];
+      behind.upper[axis] = behind.lower[axis] + 2;
+      for_each(behind, [&](const Index<D>& cell) {
+        Index<D> first = cell, second = cell;
+        first[axis] = side == 0 ? 0 : grid_->cells()[axis] - 1;
+        second[axis] = first[axis] + (side == 0 ? 1 : -1);
+        const bool wet = flow.saturation()[first] >= 0.5 && flow.saturation()[second] >= 0.5;
+        if (grid_->cells()[axis] < 2 || !wet) return;
+        const int layer = std::abs(cell[axis] - first[axis]);
+        pressure_[cell] = pressure_[first] + layer * (pressure_[first] - pressure_[second]);
+      });
+    }
+  soil.set_pore_pressure(pressure_);
+}
+
+/// As after a step in which nothing changed.
+template <int D>
+void UnifiedCoupling<D>::initialise(const FlowSolver<D>& flow, SoilSolver<D>& soil) {
+  load_grains(soil, 1.0);
+  change_.fill(0.0);
+  note_pore_pressure(flow, soil);
+}
+
+template class UnifiedCoupling<2>;
+template class UnifiedCoupling<3>;
+
+}  // namespace mudlark

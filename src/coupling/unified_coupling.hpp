@@ -1,0 +1,54 @@
+#pragma once
+/// One water (NUMERICS C2): free and pore water are the flow's, grains live on the points, and one
+/// pressure moves both.
+///
+/// A step t -> t + dt, with the velocities of both at t:
+///   1. the points move, and their stress follows;
+///   2. porosity and drag of the grains go to the grid (`map_soil_to_grid`);
+///   3. the points leave mass, momentum and forces on the faces (`load_grains`);
+///   4. the flow moves its water, and solves the momentum of water and grains with the pressure
+///      that makes the flux of the two together free of divergence (flow/moving_grains.hpp);
+///   5. the grains' velocities wait for the next step (`follow_water`).
+#include "flow/flow_solver.hpp"
+#include "grid/halo.hpp"
+#include "soil/soil_solver.hpp"
+
+namespace mudlark {
+
+template <int D>
+class UnifiedCoupling {
+ public:
+  UnifiedCoupling(const Grid<D>& grid, const FlowSolver<D>& flow, const SoilSolver<D>& soil);
+
+  /// Velocities of the grains at the start, after flow and soil have theirs. Collective.
+  void initialise(const FlowSolver<D>& flow, SoilSolver<D>& soil);
+
+  void map_soil_to_grid(SoilSolver<D>& soil, const PorousMedium<D>& fixed, PorousMedium<D>& medium);
+  void move_grains(SoilSolver<D>& soil, double dt);
+  void load_grains(SoilSolver<D>& soil, double dt);
+  void follow_water(const FlowSolver<D>& flow, SoilSolver<D>& soil);
+
+  MovingGrains<D>& grains() { return grains_; }
+
+  template <class Archive>
+  void archive(Archive& a) {
+    a.faces("grain velocity", grains_.velocity);
+    a.faces("grain change", change_);
+  }
+
+ private:
+  void note_pore_pressure(const FlowSolver<D>& flow, SoilSolver<D>& soil);
+
+  const Grid<D>* grid_;
+  Halo<D> halo_;
+  double grain_density_;
+  CellField<D> fraction_, resistance_, pressure_;
+  MovingGrains<D> grains_;
+  FaceVector<D> change_;  ///< of the grains' velocity over the last step [m/s]
+  FaceVector<D> before_;  ///< that velocity before it [m/s]
+};
+
+extern template class UnifiedCoupling<2>;
+extern template class UnifiedCoupling<3>;
+
+}  // namespace mudlark

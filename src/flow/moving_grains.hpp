@@ -1,0 +1,57 @@
+#pragma once
+/// Grains that share one pressure with the water around and between them (NUMERICS C2).
+#include "grid/field.hpp"
+
+namespace mudlark {
+
+/// What the grains bring to a step, on faces, and what they take from it. Where there are none all
+/// is zero.
+template <int D>
+struct MovingGrains {
+  explicit MovingGrains(const Grid<D>& grid)
+      : inertia(grid, "grain inertia", "kg/m3"),
+        share(grid, "grain share", "1"),
+        force(grid, "grain force", "N/m3"),
+        resistance(grid, "resistance", "Pa s/m2"),
+        velocity(grid, "grain velocity", "m/s") {}
+
+  FaceVector<D> inertia;     ///< M_s, mass of grains per volume [kg/m3]
+  FaceVector<D> share;       ///< phi_f, volume of grains per volume [-]
+  FaceVector<D> force;       ///< on the grains, pressure and drag apart: stress and weight [N/m3]
+  FaceVector<D> resistance;  ///< A of the drag theta^2 A (v_f - v_s) on them: mu/kappa [Pa s/m2]
+  FaceVector<D> velocity;    ///< v_s [m/s]: before the step, then after it
+};
+
+/// Momentum of water and grains on the faces of a step, drag implicit, and how both answer to a
+/// pressure gradient:
+///   [M_s + dt b, -dt b; -dt b, M_l + dt b] [v_s; v_f] = [M_s v_s + dt f; M_l v_f] - dt [phi;
+///   theta] grad p,   b = theta^2 A.
+/// The drag stands inside the operator of the pressure, so no permeability bounds the step.
+template <int D>
+class GrainsInWater {
+ public:
+  explicit GrainsInWater(const Grid<D>& grid);
+
+  /// `velocity` is that of the water under all but pressure and grains, `mobility` its answer
+  /// alone, dt / (rho + ...) [m2 s/kg]; both become those of the two together, as does
+  /// grains.velocity. `water` W and `unknown` (cells with a pressure) need ghosts. Closed walls
+  /// hold both. Owned and bounding faces.
+  void couple(const FaceVector<D>& capacity, const CellField<D>& water,
+              const CellField<D>& porosity, const CellField<D>& unknown, double dt,
+              FaceVector<D>& velocity, FaceVector<D>& mobility, MovingGrains<D>& grains);
+
+  /// theta v_f + phi v_s [m/s], and what a unit pressure gradient takes from it and from v_s.
+  FaceVector<D>& flux() { return flux_; }
+  const FaceVector<D>& flux_mobility() const { return flux_mobility_; }
+  const FaceVector<D>& grain_mobility() const { return grain_mobility_; }
+  const FaceVector<D>& whole() const { return whole_; }  ///< 1 everywhere: the flux is whole
+
+ private:
+  const Grid<D>* grid_;
+  FaceVector<D> flux_, flux_mobility_, grain_mobility_, whole_;
+};
+
+extern template class GrainsInWater<2>;
+extern template class GrainsInWater<3>;
+
+}  // namespace mudlark

@@ -1,0 +1,40 @@
+/// Steps of the soil whose pore water is the flow's: its faces are solved by the coupling.
+#include "soil/soil_solver.hpp"
+#include "soil/walls.hpp"
+
+namespace mudlark {
+
+template <int D>
+void SoilSolver<D>::move_with(const FaceVector<D>& velocity, const FaceVector<D>& change,
+                              double dt) {
+  sides_.update(time_, dt);
+  for (int d = 0; d < D; ++d) {
+    NodeField<NodeMotion, D>& motion = motion_;
+    for_each(solved_faces(sides_, d).intersected(active_), [&](const Index<D>& face) {
+      const double v = velocity[d][face], dv = change[d][face];
+      motion[static_cast<std::size_t>(d)][face] = {v, dv, v, dv, v};
+    });
+  }
+  mirror_motion(sides_, active_, sums_, motion_);
+  if (exchanges_halos(*grid_)) halo_.exchange(as_doubles<NodeMotion, D>(motion_), node_motions);
+  update_points(dt);
+  time_ += dt;
+  settle_sums();
+  redistribute();
+}
+
+template <int D>
+const NodeField<NodeSums, D>& SoilSolver<D>::load_faces(double dt) {
+  length_ = step_ = dt;
+  surface_.begin_step(time_, dt, nullptr, active_);
+  sides_.update(time_, dt);
+  gather_nodes();
+  return sums_;
+}
+
+template void SoilSolver<2>::move_with(const FaceVector<2>&, const FaceVector<2>&, double);
+template void SoilSolver<3>::move_with(const FaceVector<3>&, const FaceVector<3>&, double);
+template const NodeField<NodeSums, 2>& SoilSolver<2>::load_faces(double);
+template const NodeField<NodeSums, 3>& SoilSolver<3>::load_faces(double);
+
+}  // namespace mudlark
