@@ -45,6 +45,7 @@ FlowSolver<D>::FlowSolver(const Grid<D>& grid, const FlowOptions& options)
       projection_(grid, options),
       extension_(grid),
       waves_(grid, options.waves),
+      solids_(grid, options.solids),
       water_(grid, "water fraction", "1"),
       porosity_(grid, "porosity", "1", 1.0),
       pressure_(grid, "pressure", "Pa"),
@@ -54,6 +55,8 @@ FlowSolver<D>::FlowSolver(const Grid<D>& grid, const FlowOptions& options)
       new_porosity_(grid, "new porosity", "1", 1.0),
       target_(grid, "target divergence", "1/s"),
       no_storage_(grid, "storage", "1/(Pa s)"),
+      seen_(grid, "saturation", "1"),
+      loose_(grid, "loose", "1"),
       capacity_(grid, "capacity", "1", 1.0),
       flux_(grid, "flux", "m/s"),
       carried_(grid, "carried water", "1"),
@@ -79,7 +82,8 @@ void FlowSolver<D>::update_derived() {
 }
 
 /// theta_f = aperture times the mean porosity of the room beside the face, on owned and bounding
-/// faces. All that passes a face is this times its velocity, so water, porosity and pressure agree.
+/// faces, with bodies on ghost faces too. All that passes a face is this times its velocity, so
+/// water, porosity and pressure agree.
 template <int D>
 void FlowSolver<D>::find_capacity(const PorousMedium<D>& medium) {
   const double* theta = porosity_.data();
@@ -91,7 +95,9 @@ void FlowSolver<D>::find_capacity(const PorousMedium<D>& medium) {
     const std::ptrdiff_t s = grid_->stride(a);
     const double* aperture = medium.space.aperture[a].data();
     double* capacity = capacity_[a].data();
-    for_each_offset(*grid_, bounding_faces(*grid_, a), [&](std::ptrdiff_t at) {
+    IndexBox<D> box = solids_.empty() ? bounding_faces(*grid_, a) : grid_->local();
+    if (!solids_.empty()) box.lower[a] += 1;
+    for_each_offset(*grid_, box, [&](std::ptrdiff_t at) {
       capacity[at] = aperture[at] * (0.5 * (porosity(at) + porosity(at - s)));
     });
   }
@@ -121,7 +127,8 @@ void FlowSolver<D>::fill_with_bodies() {
         // A face belongs to a body that reaches into one of its cells.
         const double touched =
             fraction_inside(body.shape, to_point3(centre - half), to_point3(centre + half), D);
-        if (touched > 0.0) velocity_[axis][face] = body.velocity[component](to_point3(centre), 0.0);
+        if (touched > 0.0 && capacity_[axis][face] > 0.0)
+          velocity_[axis][face] = body.velocity[component](to_point3(centre), 0.0);
       }
     });
 }
@@ -133,9 +140,9 @@ void FlowSolver<D>::initialise(const PorousMedium<D>& medium) {
   double* theta = porosity_.data();
   for_each_offset(*grid_, grid_->local(),
                   [&](std::ptrdiff_t at) { theta[at] = volume[at] * given[at]; });
+  find_capacity(medium);
   fill_with_bodies();
   update_derived();
-  find_capacity(medium);
   initial_volume_ = ledger().present;
   outflow_ = time_ = 0.0;
   step_ = 0;
@@ -150,9 +157,15 @@ void FlowSolver<D>::find_unknowns() {
   if (gas_) {
     gas_->find_mixture(water_, porosity_, saturation_);
     projection_.cover_all(porosity_, gas_->find_reference(saturation_));
-  } else {
-    projection_.find_surface(water_, porosity_, saturation_, interface_);
+    return;
   }
+  const CellField<D>* seen = &saturation_;
+  if (!solids_.walls().empty()) {
+    seen_.copy_values_from(saturation_);
+    solids_.walls().extend_saturation(seen_);
+    seen = &seen_;
+  }
+  projection_.find_surface(water_, porosity_, capacity_, *seen, interface_);
 }
 
 /// First the given velocity is made free of divergence (its pressure is an impulse and is thrown
@@ -178,7 +191,7 @@ void FlowSolver<D>::project_start(const PorousMedium<D>& medium) {
   if (gas_)
     ghosts_.update_velocity(velocity_);
   else
-    extension_.extend(projection_.unknown(), water_, porosity_, velocity_);
+    extension_.extend(projection_.unknown(), water_, porosity_, capacity_, velocity_);
   double round_off = 1e-300;  // what cancellation leaves of the divergence under the deepest water
   for (int a = 0; a < D; ++a) {
     round_off = std::max(
@@ -247,7 +260,8 @@ void FlowSolver<D>::transport(const PorousMedium<D>& medium, double dt) {
   old_water_.copy_values_from(water_);
   if (gas_) gas_->begin(water_, porosity_);
   // Spray in gas keeps its planes: mixed, it would spread through the gas as mist.
-  interface_.sweep(water_, porosity_, flux_, dt, step_, gas_ ? Spray::sharp : Spray::mixed);
+  interface_.sweep(water_, porosity_, flux_, dt, step_, gas_ ? Spray::sharp : Spray::mixed,
+                   &solids_.walls());
   move_porosity(grid, porosity_, flux_, dt, new_porosity_);
   const double* w = old_water_.data();
   const double* theta = porosity_.data();
@@ -255,9 +269,12 @@ void FlowSolver<D>::transport(const PorousMedium<D>& medium, double dt) {
   const double* volume = medium.space.volume.data();
   double* moved = new_porosity_.data();
   for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) {
-    if (!incompressible(w[at], theta[at])) moved[at] = volume[at] * given[at];
+    const bool loose = !incompressible(w[at], theta[at]);
+    loose_.data()[at] = loose ? 1.0 : 0.0;
+    if (loose) moved[at] = solids_.moving() ? theta[at] : volume[at] * given[at];
   });
   interface_.follow_porosity(water_, porosity_, new_porosity_);
+  if (solids_.moving()) follow_solids(medium);
   check_bounds();
   add_outflow();
   ghosts_.update(water_);
@@ -265,6 +282,7 @@ void FlowSolver<D>::transport(const PorousMedium<D>& medium, double dt) {
   find_capacity(medium);
   carried_.copy_values_from(interface_.water_flux());
   ghosts_.exchange(carried_);
+  solids_.walls().extend_velocity(velocity_);
   if (!options_.advection) return;
   if (gas_)
     gas_->move_momentum(water_, porosity_, flux_, carried_, dt, momentum_, velocity_);
@@ -283,6 +301,12 @@ void FlowSolver<D>::advance(const PorousMedium<D>& medium, double dt, MovingGrai
   find_unknowns();
   if (options_.wall_law != WallLaw::resolved)
     find_wall_friction(*grid_, options_, water_, velocity_, wall_friction_);
+  if (solids_.no_slip()) {
+    if (options_.wall_law == WallLaw::resolved) wall_friction_.fill(0.0);
+    add_body_friction(*grid_, solids_, porosity_, options_.viscosity, wall_friction_);
+    ghosts_.exchange(wall_friction_);
+  }
+  solids_.walls().extend_velocity(velocity_);
   if (turbulence_) turbulence_->advance(medium, saturation_, velocity_, dt);
   predictor_.advance(medium, porosity_, capacity_, wall_friction_, time_, dt,
                      gas_ ? &gas_->mixture() : nullptr,
@@ -298,7 +322,7 @@ void FlowSolver<D>::advance(const PorousMedium<D>& medium, double dt, MovingGrai
     last_solve_ = projection_.project(capacity_, mobility_, target_, give_way, pressure_, velocity_,
                                       options_.pressure_tolerance / dt);
   ghosts_.update_velocity(velocity_);
-  if (!gas_) extension_.extend(projection_.unknown(), water_, porosity_, velocity_);
+  if (!gas_) extension_.extend(projection_.unknown(), water_, porosity_, capacity_, velocity_);
   check_finite();
   if (turbulence_) turbulence_->find(medium, saturation_, velocity_);
   step_ += 1;
@@ -387,7 +411,7 @@ double FlowSolver<D>::stable_step(const PorousMedium<D>&) const {
   if (turbulence_)  // a little below 1/6: the viscosity varies, and its stress is symmetric
     step = std::min(
         step, h * h / (8.0 * (options_.viscosity / options_.density + turbulence_->largest())));
-  return step;
+  return solids_.moving() ? solids_.limited_step(time_, step) : step;
 }
 
 template <int D>
@@ -457,10 +481,6 @@ double FlowSolver<D>::surface_height(const Vec<D>& position) const {
 template <int D>
 double FlowSolver<D>::front() const {
   return water_front(*grid_, saturation_);
-}
-template <int D>
-double FlowSolver<D>::pressure_at(const Vec<D>& position) const {
-  return interpolate(*grid_, pressure_.data(), -1, position);
 }
 template <int D>
 Vec<D> FlowSolver<D>::velocity_at(const Vec<D>& position) const {

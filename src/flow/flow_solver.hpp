@@ -20,6 +20,7 @@
 #include "flow/porous_medium.hpp"
 #include "flow/predictor.hpp"
 #include "flow/projection.hpp"
+#include "flow/solid_load.hpp"
 #include "flow/turbulence.hpp"
 #include "flow/two_fluids.hpp"
 #include "numerics/interface_advection.hpp"
@@ -48,6 +49,13 @@ class FlowSolver {
   /// Water W = theta * share of the cell inside the bodies (exact for boxes), their velocity made
   /// free of divergence, and the pressure that holds the water at rest.
   void initialise(const PorousMedium<D>& medium);
+
+  /// Room that bodies leave in the medium where they are now: before initialise().
+  void place_solids(PorousMedium<D>& medium) { solids_.fill(medium); }
+  /// What follows from a state just loaded.
+  void restore(PorousMedium<D>& medium);
+  /// Moves bodies over the coming step, and the room in the medium with them.
+  void move_solids(PorousMedium<D>& medium, double dt);
 
   /// Largest step that keeps the transport bounded, the viscosity stable and surface waves resolved
   /// [s] (NUMERICS B2, B5). The same on all ranks.
@@ -88,6 +96,9 @@ class FlowSolver {
   Vec<D> velocity_at(const Vec<D>& position) const;
   /// Null where the flow has none.
   const Turbulence<D>* turbulence() const { return turbulence_ ? &*turbulence_ : nullptr; }
+  const SolidBodies<D>& solids() const { return solids_; }
+  /// Of the water on a body about its centre, or on the part of its surface in a box. Collective.
+  SolidLoad solid_load(std::size_t body, const std::optional<BoxShape>& part) const;
   const SolveReport& last_solve() const { return last_solve_; }
 
   /// The whole state: a run that goes on from it continues bit for bit.
@@ -102,6 +113,7 @@ class FlowSolver {
     a.cells("flow pressure", pressure_);
     a.faces("flow velocity", velocity_);
     a.faces("flow capacity", capacity_);
+    solids_.archive(a);
     ghosts_.exchange(capacity_);
     if (turbulence_) turbulence_->archive(a);
     update_derived();
@@ -112,6 +124,7 @@ class FlowSolver {
   void fill_with_bodies();
   void transport(const PorousMedium<D>& medium, double dt);
   void find_capacity(const PorousMedium<D>& medium);
+  void follow_solids(const PorousMedium<D>& medium);
   void find_flux();
   void find_target(const PorousMedium<D>& medium, double dt, double most);
   void add_outflow();
@@ -120,6 +133,7 @@ class FlowSolver {
   void find_unknowns();
   bool incompressible(double water, double porosity) const;
   void project_with_grains(const CellField<D>& give_way, double dt, MovingGrains<D>& grains);
+  WallPressure<D> wall_pressure() const;
   void check_bounds() const;
   void check_finite() const;
   double courant_rate() const;
@@ -137,9 +151,12 @@ class FlowSolver {
   std::optional<TwoFluids<D>> gas_;
   std::optional<Turbulence<D>> turbulence_;
   std::optional<GrainsInWater<D>> with_grains_;
+  SolidBodies<D> solids_;
   CellField<D> water_, porosity_, pressure_, saturation_;
   FaceVector<D> velocity_;
   CellField<D> old_water_, new_porosity_, target_, no_storage_;
+  CellField<D> seen_;       ///< saturation, continued behind the walls of bodies
+  CellField<D> loose_;      ///< 1 in cells whose porosity was not transported
   FaceVector<D> capacity_;  ///< theta_f: what a face lets through of a unit velocity [-]
   FaceVector<D> flux_, carried_, mobility_, wall_friction_;
   double initial_volume_ = 0.0, outflow_ = 0.0, time_ = 0.0;

@@ -3,11 +3,12 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "base/varying.hpp"
 #include "flow/wave_zone.hpp"
-#include "grid/shape.hpp"
+#include "grid/rigid_pose.hpp"
 
 namespace mudlark {
 
@@ -31,6 +32,15 @@ struct PorousGround {
   double keulegan_carpenter = 0.0;                   ///< KC [-]; 0: steady flow, no KC term
   double drag_coefficient = 0.0, drag_length = 0.0;  ///< C_D [-] and its length [m], cadmas
   double inertia_coefficient = 0.0;                  ///< C_A of the added mass C_A rho (1 - n) [-]
+};
+
+/// Impermeable body in the water.
+struct FlowSolid {
+  std::string name;
+  Shape shape;                   ///< where it is at time zero
+  std::optional<Point3> centre;  ///< what it turns about [m]
+  std::variant<FixedSolid, PrescribedSolid> motion{};
+  bool no_slip = false;  ///< else water slips along its surface
 };
 
 /// Friction of no-slip walls. resolved: the viscous profile between the wall and the first row of
@@ -61,6 +71,7 @@ struct FlowOptions {
   std::optional<Gas> gas;       ///< without it there is a void at zero pressure beside the water
   std::vector<WaterBody> bodies;
   std::vector<PorousGround> porous;
+  std::vector<FlowSolid> solids;
   double courant = 0.4;  ///< of the interface's Courant number bound (NUMERICS B2)
   double pressure_tolerance =
       1e-10;  ///< bound on the largest residual divergence times the step [-]

@@ -170,6 +170,7 @@ void Predictor<D>::advance(const PorousMedium<D>& medium, const CellField<D>& po
     const double* grains = medium.grain_velocity[a].data();
     const double* friction = wall_friction[a].data();
     const double* added = medium.added_mass[a].data();
+    const double* theta = capacity[a].data();
     double* v = velocity[a].data();
     double* m = mobility[a].data();
     const auto push = [&](const auto& fluid) {
@@ -180,6 +181,7 @@ void Predictor<D>::advance(const PorousMedium<D>& medium, const CellField<D>& po
         v[at] = (rho * (v[at] + dt * (fluid.weight(at) + viscous[at])) + inertia * v[at] +
                  dt * resistance * grains[at]) *
                 (m[at] / dt);
+        if (theta[at] == 0.0) v[at] = 0.0;
       });
     };
     if (mixture)

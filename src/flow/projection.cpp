@@ -90,7 +90,7 @@ double Projection<D>::in_mean_cells(std::ptrdiff_t face, int axis) const {
 
 template <int D>
 void Projection<D>::find_surface(const CellField<D>& water, const CellField<D>& porosity,
-                                 const CellField<D>& alpha,
+                                 const FaceVector<D>& capacity, const CellField<D>& alpha,
                                  const InterfaceAdvection<D>& interface) {
   const Grid<D>& grid = *grid_;
   const double* w = water.data();
@@ -102,7 +102,12 @@ void Projection<D>::find_surface(const CellField<D>& water, const CellField<D>& 
   for (int axis = 0; axis < D; ++axis) {
     const std::ptrdiff_t s = grid.stride(axis);
     double* distance_here = distance_[axis].data();
+    const double* open = capacity[axis].data();
     for_each_offset(grid, bounding_faces(grid, axis), [&](std::ptrdiff_t at) {
+      if (open[at] == 0.0) {
+        distance_here[at] = 0.0;
+        return;
+      }
       const bool above = unknown[at] > 0.0, below = unknown[at - s] > 0.0;
       double& here = distance_here[at];
       if (above && below)

@@ -17,7 +17,8 @@ class Projection {
   /// unknowns, xi to the surface (where p = 0), half a cell to an open wall. `alpha` needs valid
   /// ghosts.
   void find_surface(const CellField<D>& water, const CellField<D>& porosity,
-                    const CellField<D>& alpha, const InterfaceAdvection<D>& interface);
+                    const FaceVector<D>& capacity, const CellField<D>& alpha,
+                    const InterfaceAdvection<D>& interface);
 
   /// Without a surface: every cell with room has a pressure unknown. In a closed box its mean,
   /// weighted by `reference`, is zero.

@@ -78,6 +78,10 @@ void read_gauge_section(Section& gauge, GaugeRange& range) {
   section.finish();
 }
 
+void read_solid_part(Section& gauge, GaugeRange& range) {
+  read_from_to(gauge, axes_of(gauge.reading().dimension), range);
+}
+
 void read_run_up_range(Section& gauge, GaugeOptions& options) {
   const Reading& reading = gauge.reading();
   std::vector<std::size_t> along = axes_of(reading.dimension);

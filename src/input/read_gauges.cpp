@@ -59,6 +59,20 @@ bool near_soil(const Reading& reading, const SoilOptions& soil, const Point3& at
   });
 }
 
+/// Pressure and velocity are measured in water, not in a body.
+void check_not_in_solid(Section& section, const CaseOptions& options, const GaugeOptions& gauge) {
+  if (gauge.quantity != GaugeQuantity::pressure && gauge.quantity != GaugeQuantity::velocity)
+    return;
+  for (const FlowSolid& solid : options.flow->solids)
+    if (std::holds_alternative<FixedSolid>(solid.motion) &&
+        distance_to(solid.shape, gauge.at).distance < 0.0)
+      return section.fail("at",
+                          fmt::format("the gauge stands inside the solid \"{}\", where there "
+                                      "is no water",
+                                      solid.name),
+                          "Put it on the surface or into the water.");
+}
+
 /// False with a message when the gauge cannot measure there.
 void read_place(Section& section, const CaseOptions& options, const Kind& kind,
                 GaugeOptions& gauge) {
@@ -77,6 +91,7 @@ void read_place(Section& section, const CaseOptions& options, const Kind& kind,
   if (kind.of == Of::soil && options.soil && reading.report.empty() &&
       !near_soil(reading, *options.soil, gauge.at))
     section.fail("at", "no soil starts there, and this gauge follows soil");
+  if (options.flow) check_not_in_solid(section, options, gauge);
 }
 
 /// of = "NAME" of a rigid body.
@@ -84,6 +99,8 @@ void read_solid_name(Section& section, const CaseOptions& options, GaugeOptions&
   Section::Words names;
   if (options.soil)
     for (const SolidOptions& solid : options.soil->solids) names.push_back(solid.name);
+  if (options.flow)
+    for (const FlowSolid& solid : options.flow->solids) names.push_back(solid.name);
   if (names.empty()) {
     section.has("of");
     return section.fail("quantity", "it measures a rigid body, and the case has no [[solid]]");
@@ -106,7 +123,7 @@ void read_boundary_name(Section& section, const SoilOptions& soil, GaugeOptions&
 }
 
 /// The keys that only some quantities have.
-void read_own_keys(Section& section, GaugeOptions& gauge) {
+void read_own_keys(Section& section, const CaseOptions& options, GaugeOptions& gauge) {
   const bool section_of =
       gauge.quantity == GaugeQuantity::section_flux || gauge.quantity == GaugeQuantity::overtopping;
   const bool run_up = gauge.quantity == GaugeQuantity::run_up;
@@ -114,9 +131,12 @@ void read_own_keys(Section& section, GaugeOptions& gauge) {
     read_gauge_section(section, gauge.range);
   else
     section.forbid("section", "water is counted at one by section_flux and overtopping");
+  const bool load = options.flow && (gauge.quantity == GaugeQuantity::solid_force ||
+                                     gauge.quantity == GaugeQuantity::solid_moment);
   if (run_up) read_run_up_range(section, gauge);
+  if (load) read_solid_part(section, gauge.range);
   for (const char* key : {"from", "to", "thickness"})
-    if (!run_up)
+    if (!run_up && !(load && std::string_view(key) != "thickness"))
       section.forbid(key, section_of ? "the extent of a section belongs into section = { ... }"
                                      : "it belongs to quantity = \"run_up\"");
   if (gauge.quantity == GaugeQuantity::water_level)
@@ -178,7 +198,7 @@ void read_gauges(Section& root, CaseOptions& options) {
                                ? why_no_place(kind)
                                : fmt::format("{} is measured in the whole domain", kind.name));
     if (known) {
-      read_own_keys(section, gauge);
+      read_own_keys(section, options, gauge);
     } else {
       for (const char* key : {"section", "from", "to", "thickness", "crossings"}) section.has(key);
     }

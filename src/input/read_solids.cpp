@@ -1,4 +1,4 @@
-/// [[solid]]: rigid bodies in soil
+/// [[solid]]: rigid bodies in soil or in flowing water
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -162,7 +162,14 @@ double read_friction(Section& section) {
       not_negative("friction cannot push", "0.4 is tan 22 degrees; \"rough\" never slips."), 0.0);
 }
 
-SolidOptions read_solid(Section& section, std::vector<std::string>& names) {
+void read_contact(Section& section, SolidOptions& solid) {
+  solid.friction = read_friction(section);
+  solid.adhesion = section.number(
+      "adhesion", quantity::stress,
+      not_negative("the shear strength of the contact without pressure"), solid.adhesion);
+}
+
+SolidOptions read_solid(Section& section, bool in_water, std::vector<std::string>& names) {
   SolidOptions solid;
   solid.name = read_name(section, names);
   if (const auto shape = read_shape(section, "shape", true)) solid.shape = *shape;
@@ -172,12 +179,25 @@ SolidOptions read_solid(Section& section, std::vector<std::string>& names) {
     if (centre.size() == axes) solid.centre = point_from_axes(centre);
   }
   read_motion(section, solid);
-  solid.friction = read_friction(section);
-  solid.adhesion = section.number(
-      "adhesion", quantity::stress,
-      not_negative("the shear strength of the contact without pressure"), solid.adhesion);
-  section.finish();
+  if (!in_water) read_contact(section, solid);
   return solid;
+}
+
+/// The same body as the water sees it.
+FlowSolid read_flow_solid(Section& section, const SolidOptions& solid) {
+  FlowSolid body{solid.name, solid.shape, solid.centre, {}, false};
+  if (const auto* given = std::get_if<PrescribedSolid>(&solid.motion)) body.motion = *given;
+  if (std::holds_alternative<FreeSolid>(solid.motion))
+    section.fail("motion",
+                 "a body in flowing water is fixed or moves as given; the water cannot "
+                 "move it yet",
+                 "Write \"fixed\" or { type = \"prescribed\", ... }.");
+  for (const char* key : {"friction_coefficient", "adhesion"})
+    section.forbid(key, "it is for soil; `wall` says how water passes the body");
+  body.no_slip = section.choice<bool>("wall", {{"slip", false}, {"no-slip", true}}, false);
+  if (body.no_slip && !std::holds_alternative<FixedSolid>(solid.motion))
+    section.fail("wall", "water has friction on fixed bodies only");
+  return body;
 }
 
 }  // namespace
@@ -186,25 +206,40 @@ void read_solids(Section& root, CaseOptions& options) {
   std::vector<Section> sections = root.tables("solid");
   if (sections.empty()) return;
   Report& report = root.reading().report;
-  if (options.flow)
-    report.add(
-        root.place("solid"),
-        "[[solid]] is a rigid body in soil; it cannot stand in flowing water yet\n  (the case "
-        "has [[water.body]]). Leave one of them out, or describe fixed permeable ground by "
-        "[[porous]].");
-  else if (!options.soil)
-    report.add(root.place("solid"), "[[solid]] is a rigid body in soil, but there is no [[soil]]");
+  if (options.flow && options.soil)
+    report.add(root.place("solid"),
+               "[[solid]] stands in soil or in flowing water; with both in one case it is not "
+               "there yet. Leave one of the three out.");
+  else if (options.flow && options.flow->gas)
+    report.add(root.place("solid"),
+               "[[solid]] stands in water under air of no mass; with air = \"gas\" it is not there "
+               "yet. Leave one of them out.");
+  else if (options.flow && options.flow->turbulence.model != TurbulenceModel::none)
+    report.add(root.place("solid"),
+               "[[solid]] in water does not go with [water.turbulence] yet: it knows the domain's "
+               "walls only. Leave one of them out.");
+  else if (!options.flow && !options.soil)
+    report.add(root.place("solid"),
+               "[[solid]] is a rigid body in soil or water, but there is no [[soil]] and no "
+               "[[water.body]]");
   std::vector<std::string> names;
   std::vector<NamedShape> bodies;
   for (Section& section : sections) {
     const std::size_t before = report.size();
-    SolidOptions solid = read_solid(section, names);
+    const bool in_water = options.flow && !options.soil;
+    SolidOptions solid = read_solid(section, in_water, names);
+    if (in_water)
+      options.flow->solids.push_back(read_flow_solid(section, solid));
+    else
+      section.forbid("wall", "it is for bodies in flowing water");
+    section.finish();
     if (report.size() == before)
       bodies.push_back(
           {fmt::format("solid \"{}\"", solid.name), solid.shape, section.place("shape")});
     if (options.soil) options.soil->solids.push_back(std::move(solid));
   }
-  check_overlaps(root.reading(), bodies);
+  // In water bodies stand on and in each other: only what is left of the space counts.
+  if (options.soil) check_overlaps(root.reading(), bodies);
 }
 
 }  // namespace mudlark

@@ -94,6 +94,8 @@ void read_gauges(Section& root, CaseOptions& options);
 /// section = { x = 2.0, from = 0.3, to = 0.8, direction = "negative" } of a gauge.
 void read_gauge_section(Section& gauge, GaugeRange& range);
 /// from, to and thickness of a gauge of run-up.
+/// from, to: the box around the part of a body's surface that counts.
+void read_solid_part(Section& gauge, GaugeRange& range);
 void read_run_up_range(Section& gauge, GaugeOptions& options);
 
 /// The shape below `key`, inside the domain, unless it may reach over its edge; nothing after a

@@ -31,7 +31,7 @@ Plane<D> InterfaceAdvection<D>::plane(const double* alpha, std::ptrdiff_t at) co
 template <int D>
 void InterfaceAdvection<D>::sweep(CellField<D>& water, const CellField<D>& porosity,
                                   const FaceVector<D>& flux, double dt, std::int64_t order,
-                                  Spray spray) {
+                                  Spray spray, const WallBand<D>* walls) {
   const double* w = water.data();
   const double* theta = porosity.data();
   double* c = dilates_.data();
@@ -43,13 +43,14 @@ void InterfaceAdvection<D>::sweep(CellField<D>& water, const CellField<D>& poros
   const bool backwards = (order / D) % 2 == 1;
   for (int k = 0; k < D; ++k) {
     const int axis = (first + (backwards ? D - k : k)) % D;
-    sweep_axis(water, porosity, flux[axis], axis, dt);
+    sweep_axis(water, porosity, flux[axis], axis, dt, walls);
   }
 }
 
 template <int D>
 void InterfaceAdvection<D>::sweep_axis(CellField<D>& water, const CellField<D>& porosity,
-                                       const FaceField<D>& flux, int axis, double dt) {
+                                       const FaceField<D>& flux, int axis, double dt,
+                                       const WallBand<D>* walls) {
   const Grid<D>& grid = *grid_;
   const double* w = water.data();
   const double* theta = porosity.data();
@@ -58,6 +59,7 @@ void InterfaceAdvection<D>::sweep_axis(CellField<D>& water, const CellField<D>& 
     alpha[at] = theta[at] > 0.0 ? w[at] / theta[at] : 0.0;
   });
   ghosts_.update(alpha_);
+  if (walls) walls->extend_saturation(alpha_);
   find_planes(axis);
 
   const std::ptrdiff_t s = grid.stride(axis);

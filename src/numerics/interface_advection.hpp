@@ -10,6 +10,7 @@
 
 #include "numerics/ghosts.hpp"
 #include "numerics/plic.hpp"
+#include "numerics/wall_band.hpp"
 
 namespace mudlark {
 
@@ -33,10 +34,12 @@ class InterfaceAdvection {
 
   /// The D sweeps. `flux` is U = theta_f v [m/s], `porosity` the theta that it was made with; both
   /// need valid ghosts and stay fixed. Then `water` lacks the fourth sweep. `order` permutes the
-  /// axes: count it up every step. Bound: dt * max(sum of inflow, sum of outflow) <= theta/2 in
+  /// axes: count it up every step. `walls`: bodies behind which interface normals see the water go
+  /// on. Bound: dt * max(sum of inflow, sum of outflow) <= theta/2 in
   /// every cell.
   void sweep(CellField<D>& water, const CellField<D>& porosity, const FaceVector<D>& flux,
-             double dt, std::int64_t order, Spray spray = Spray::sharp);
+             double dt, std::int64_t order, Spray spray = Spray::sharp,
+             const WallBand<D>* walls = nullptr);
 
   /// Fourth sweep: W += c (theta_new - theta); then theta = theta_new. Owned cells.
   void follow_porosity(CellField<D>& water, CellField<D>& porosity,
@@ -51,7 +54,7 @@ class InterfaceAdvection {
 
  private:
   void sweep_axis(CellField<D>& water, const CellField<D>& porosity, const FaceField<D>& flux,
-                  int axis, double dt);
+                  int axis, double dt, const WallBand<D>* walls);
   void find_planes(int axis);
   void find_spray(const CellField<D>& water, const CellField<D>& porosity);
   double water_through(double shift, std::ptrdiff_t donor, int axis, double porosity) const;

@@ -8,6 +8,8 @@ namespace mudlark {
 namespace {
 
 // States of a face: negative ones wait for a value; a layer's number says when a face got it.
+constexpr double film =
+    -3.0;  ///< water without pressure on a body: extended where any layer reaches it, else kept
 constexpr double empty = -2.0;  ///< no water: to be extended
 constexpr double free_fly =
     -1.0;  ///< water without pressure: extended next to governed faces, else kept
@@ -32,7 +34,8 @@ VelocityExtension<D>::VelocityExtension(const Grid<D>& grid)
 
 template <int D>
 void VelocityExtension<D>::mark(int component, const CellField<D>& unknown,
-                                const CellField<D>& water, const CellField<D>& porosity) {
+                                const CellField<D>& water, const CellField<D>& porosity,
+                                const FaceVector<D>& capacity) {
   const Grid<D>& grid = *grid_;
   IndexBox<D> box = grid.local();
   box.lower[component] += 1;
@@ -42,12 +45,19 @@ void VelocityExtension<D>::mark(int component, const CellField<D>& unknown,
   const double* w = water.data();
   const double* theta = porosity.data();
   double* state = state_[component].data();
+  const double* below = capacity[D - 1].data();
+  const auto on_body = [&](std::ptrdiff_t cell) { return w[cell] > 0.0 && below[cell] == 0.0; };
+  const double* open = capacity[component].data();
   for_each_offset(grid, box, [&](std::ptrdiff_t at) {
     const double held = w[at] + w[at - s], room = theta[at] + theta[at - s];
-    if (inside[at] + inside[at - s] > 0.0)
+    if (open[at] == 0.0)
+      state[at] = closed;
+    else if (inside[at] + inside[at - s] > 0.0)
       state[at] = governed * std::min(held / room, 1.0);
+    else if (held <= dust * room)
+      state[at] = empty;
     else
-      state[at] = held > dust * room ? free_fly : empty;
+      state[at] = on_body(at) || on_body(at - s) ? film : free_fly;
   });
   for (int side = 0; side < 2; ++side) {
     if (!grid.touches(component, side) || grid.wall(component, side) == Wall::open) continue;
@@ -119,9 +129,11 @@ void VelocityExtension<D>::grow_layer(int component, int layer, double* velocity
 
 template <int D>
 void VelocityExtension<D>::extend(const CellField<D>& unknown, const CellField<D>& water,
-                                  const CellField<D>& porosity, FaceVector<D>& velocity) {
+                                  const CellField<D>& porosity, const FaceVector<D>& capacity,
+                                  FaceVector<D>& velocity) {
   const Grid<D>& grid = *grid_;
-  for (int component = 0; component < D; ++component) mark(component, unknown, water, porosity);
+  for (int component = 0; component < D; ++component)
+    mark(component, unknown, water, porosity, capacity);
   ghosts_.exchange(state_);  // the lowest ghost face of a rank lacks one of its cells there
   for (int component = 0; component < D; ++component) {
     double* v = velocity[component].data();
@@ -133,7 +145,8 @@ void VelocityExtension<D>::extend(const CellField<D>& unknown, const CellField<D
     });
     for (int layer = 2; layer <= ghost_layers; ++layer) grow_layer(component, layer, v);
     for_each_offset(grid, grid.owned_faces(component), [&](std::ptrdiff_t at) {
-      if (state[at] < 0.0) v[at] = 0.0;
+      if (state[at] < 0.0 && state[at] != film) v[at] = 0.0;
+      if (state[at] == film && component == D - 1) v[at] = std::max(v[at], 0.0);
     });
   }
   ghosts_.update_velocity(velocity);

@@ -13,14 +13,15 @@ class VelocityExtension {
   /// theirs, constant along the normal of the surface. Farther faces with water fly on freely with
   /// what they have; those without water take the mean of their neighbours in two more layers, and
   /// zero beyond. Afterwards water that flies freely is kept from being squeezed: a cell without
-  /// pressure may open but not close (a thin film on the floor would otherwise fall for ever). All
-  /// inputs and the result have valid ghosts.
+  /// pressure may open but not close (a thin film on the floor would otherwise fall for ever).
+  /// Faces without `capacity` are closed like walls; films on bodies do not fly, they go with the
+  /// water that reaches them. All inputs and the result have valid ghosts.
   void extend(const CellField<D>& unknown, const CellField<D>& water, const CellField<D>& porosity,
-              FaceVector<D>& velocity);
+              const FaceVector<D>& capacity, FaceVector<D>& velocity);
 
  private:
   void mark(int component, const CellField<D>& unknown, const CellField<D>& water,
-            const CellField<D>& porosity);
+            const CellField<D>& porosity, const FaceVector<D>& capacity);
   void grow_along_normal(int component, const CellField<D>& water, const CellField<D>& porosity,
                          double* velocity);
   void grow_layer(int component, int layer, double* velocity);

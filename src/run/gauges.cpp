@@ -76,8 +76,32 @@ std::vector<double> about_axes(const Eigen::Vector3d& v) {
   return {v[0], v[1], v[2]};
 }
 
+/// A body in flowing water.
+template <int D>
+std::vector<double> read_flow_solid(World<D>& world, const GaugeOptions& gauge) {
+  const SolidBodies<D>& solids = world.flow()->solids();
+  const std::size_t body = *solids.find(gauge.of);
+  const RigidPose& pose = solids.pose(body);
+  const auto load = [&] {
+    return world.flow()->solid_load(body, BoxShape{gauge.range.from, gauge.range.to});
+  };
+  switch (gauge.quantity) {
+    case GaugeQuantity::solid_force:
+      return along_axes<D>(load().force);
+    case GaugeQuantity::solid_moment:
+      return about_axes<D>(load().moment);
+    case GaugeQuantity::solid_displacement:
+      return along_axes<D>(pose.centre() - pose.start_centre());
+    case GaugeQuantity::solid_rotation:
+      return about_axes<D>(D == 2 ? pose.turned() : rotation_of(pose.turn()));
+    default:
+      return along_axes<D>(solids.velocity(body).velocity);
+  }
+}
+
 template <int D>
 std::vector<double> read_solid(World<D>& world, const GaugeOptions& gauge) {
+  if (!world.soil()) return read_flow_solid(world, gauge);
   const std::vector<Solid>& solids = world.soil()->solids();
   const Solid& solid = *std::find_if(solids.begin(), solids.end(), [&](const Solid& one) {
     return one.options().name == gauge.of;
@@ -242,8 +266,19 @@ std::vector<double> read_gauge(World<D>& world, const GaugeOptions& gauge) {
 template <int D>
 std::vector<SolidSummary> describe_solids(World<D>& world) {
   std::vector<SolidSummary> all;
-  if (!world.soil()) return all;
   const std::string force = D == 2 ? "N/m" : "N", moment = D == 2 ? "N m/m" : "N m";
+  if (FlowSolver<D>* flow = world.flow()) {
+    for (std::size_t b = 0; b < flow->solids().size(); ++b) {
+      const RigidPose& pose = flow->solids().pose(b);
+      const SolidLoad load = flow->solid_load(b, {});
+      all.push_back({flow->solids().options(b).name,
+                     {{"centre [m]", along_axes<D>(pose.centre())},
+                      {"velocity [m/s]", along_axes<D>(flow->solids().velocity(b).velocity)},
+                      {"force [" + force + "]", along_axes<D>(load.force)},
+                      {"moment [" + moment + "]", about_axes<D>(load.moment)}}});
+    }
+  }
+  if (!world.soil()) return all;
   for (const Solid& solid : world.soil()->solids())
     all.push_back({solid.options().name,
                    {{"centre [m]", along_axes<D>(solid.centre())},

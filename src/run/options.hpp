@@ -40,7 +40,7 @@ enum class GaugeQuantity {
   pore_pressure,       ///< of the material that started at `at` [Pa]
   effective_stress,    ///< xx, yy, zz, zx of the material that started at `at` [Pa]
   point_porosity,      ///< of the material that started at `at` [-]
-  solid_force,         ///< of the soil on a rigid body, mean over the last outer step [N]
+  solid_force,         ///< of soil (mean over the last outer step) or water on a rigid body [N]
   solid_moment,        ///< of the same about the body's centre [N m]
   solid_displacement,  ///< of a rigid body's centre since the start [m]
   solid_rotation,      ///< of a rigid body since the start [rad]
@@ -63,7 +63,7 @@ struct GaugeOptions {
   std::string name;
   GaugeQuantity quantity = GaugeQuantity::water_level;
   Point3 at{};
-  GaugeRange range;        ///< section_flux, overtopping, run_up
+  GaugeRange range;        ///< section_flux, overtopping, run_up; part of a body of solid_force
   double thickness = 0.0;  ///< run_up: of the water that counts as wet [m]
   int crossings = 1;       ///< water_level: surfaces that are written, the topmost first
   std::string of;          ///< name of the rigid body, or of the boundary

@@ -123,6 +123,12 @@ template <int D>
 CellField<D> solid_share(World<D>& world) {
   const Grid<D>& grid = world.grid();
   CellField<D> share(grid, "solid", "1");
+  if (!world.soil()) {
+    for_each(grid.owned(), [&](const Index<D>& cell) {
+      share[cell] = 1.0 - world.flow()->solids().open_volume()[cell];
+    });
+    return share;
+  }
   for_each(grid.owned(), [&](const Index<D>& cell) {
     const Point3 centre = to_point3(grid.cell_centre(cell));
     for (const Solid& solid : world.soil()->solids()) {
@@ -195,7 +201,8 @@ void Results<D>::write_fields(World<D>& world) {
   }
   cells.push_back(&world.medium().porosity);
   std::optional<CellField<D>> solid;
-  if (world.soil() && !world.soil()->solids().empty())
+  if ((world.soil() && !world.soil()->solids().empty()) ||
+      (world.flow() && !world.flow()->solids().empty()))
     cells.push_back(&solid.emplace(solid_share(world)));
   fields_->write(world.clock().time(), world.clock().step(), cells, faces);
   if (!world.soil()) return;

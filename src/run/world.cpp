@@ -61,7 +61,10 @@ void World<D>::initialise() {
   if (soil_) soil_->initialise();
   if (coupling_) coupling_->map_soil_to_grid(*soil_, fixed_, medium_);
   if (unified_) unified_->map_soil_to_grid(*soil_, fixed_, medium_);
-  if (flow_) flow_->initialise(medium_);
+  if (flow_) {
+    flow_->place_solids(medium_);
+    flow_->initialise(medium_);
+  }
   if (unified_) unified_->initialise(*flow_, *soil_);
   if (coupling_) coupling_->initialise(*flow_, *soil_, *load_);
   ledger_ = open_ledger(*this);
@@ -74,6 +77,7 @@ void World<D>::restore() {
     soil_->redistribute();
   }
   if (unified_) unified_->map_soil_to_grid(*soil_, fixed_, medium_);
+  if (flow_) flow_->restore(medium_);
   if (!coupling_) return;
   coupling_->restore();
   coupling_->map_soil_to_grid(*soil_, fixed_, medium_);
@@ -138,6 +142,7 @@ void World<D>::advance_flow(double dt) {
   }
   {
     const Stopwatch watch(effort_.flow);
+    flow_->move_solids(medium_, dt);
     flow_->advance(medium_, dt);
     meters_.read(*flow_, dt);
   }

@@ -1,8 +1,7 @@
 #pragma once
 /// One rigid body: where it is, how it moves, what the soil does to it.
-#include <Eigen/Geometry>
-
-#include "grid/shape_distance.hpp"
+#include "grid/rigid_pose.hpp"
+#include "grid/shape_volume.hpp"
 #include "soil/solid_options.hpp"
 
 namespace mudlark {
@@ -19,13 +18,17 @@ class Solid {
 
   const SolidOptions& options() const { return options_; }
   /// Within a box around the body that has `reach` [m] to spare on each side?
-  bool near(const Point3& place, double reach) const;
+  bool near(const Point3& place, double reach) const { return pose_.near(place, reach); }
   /// Smallest box around the body where it is now.
-  const BoxShape& box() const { return box_; }
-  SurfaceDistance distance(const Point3& place) const;
-  Vector velocity_at(const Vector& place) const { return velocity_ + spin_.cross(place - centre_); }
+  const BoxShape& box() const { return pose_.box(); }
+  SurfaceDistance distance(const Point3& place) const { return pose_.distance(place); }
+  Vector velocity_at(const Vector& place) const {
+    return velocity_ + spin_.cross(place - centre());
+  }
   /// Largest speed of its surface within a box [m/s].
-  double largest_speed(const BoxShape& within) const;
+  double largest_speed(const BoxShape& within) const {
+    return velocity_.norm() + spin_.norm() * pose_.reach(within);
+  }
 
   /// Opens an outer step: force and moment are means over it.
   void begin_outer_step();
@@ -45,15 +48,15 @@ class Solid {
   double turning_mobility() const { return turning_mobility_; }
   bool free() const { return std::holds_alternative<FreeSolid>(options_.motion); }
 
-  const Vector& centre() const { return centre_; }
-  Vector displacement() const { return centre_ - origin_; }  ///< since the start [m]
+  const Vector& centre() const { return pose_.centre(); }
+  Vector displacement() const { return centre() - origin_; }  ///< since the start [m]
   /// Since the start [rad]: rotation vector, in the plane (0, -angle, 0) with the angle
   /// counter-clockwise.
   Vector rotation() const;
-  const Eigen::Quaterniond& turn() const { return turn_; }  ///< from the shape as given
-  const Vector& velocity() const { return velocity_; }      ///< of the centre [m/s]
-  const Vector& spin() const { return spin_; }              ///< [rad/s]
-  double mass() const { return mass_; }                     ///< [kg]; 0 for given motion
+  const Eigen::Quaterniond& turn() const { return pose_.turn(); }  ///< from the shape as given
+  const Vector& velocity() const { return velocity_; }             ///< of the centre [m/s]
+  const Vector& spin() const { return spin_; }                     ///< [rad/s]
+  double mass() const { return mass_; }                            ///< [kg]; 0 for given motion
   /// Of the soil on the body, mean over the outer step [N]; its moment about the centre [N m].
   Vector force() const { return elapsed_ > 0.0 ? Vector(impulse_sum_ / elapsed_) : Vector::Zero(); }
   Vector moment() const { return elapsed_ > 0.0 ? Vector(moment_sum_ / elapsed_) : Vector::Zero(); }
@@ -66,62 +69,37 @@ class Solid {
     const auto vector = [&](const char* name, Vector& v) {
       for (int i = 0; i < 3; ++i) a.number(at + name + " " + std::to_string(i), v[i]);
     };
-    vector("centre", centre_), vector("origin", origin_);
-    vector("velocity", velocity_), vector("spin", spin_), vector("turned", turned_);
+    pose_.archive(a, at);
+    vector("origin", origin_), vector("velocity", velocity_), vector("spin", spin_);
     vector("impulse", impulse_sum_), vector("moment", moment_sum_);
     a.number(at + "elapsed", elapsed_);
-    for (int i = 0; i < 4; ++i) {
-      a.number(at + "turn " + std::to_string(i), turn_.coeffs()[i]);
+    for (int i = 0; i < 4; ++i)
       a.number(at + "first turn " + std::to_string(i), first_turn_.coeffs()[i]);
-    }
-    update_pose();
+    update_inertia();
   }
 
  private:
+  Solid(const SolidOptions& options, int dimension, const Point3& gravity, double inertia_factor,
+        const std::optional<SolidVolume>& volume);
   void set_mass(const FreeSolid& motion, const std::optional<SolidVolume>& volume);
-  void begin_prescribed_step(const PrescribedSolid& motion, double time, double dt);
   void begin_free_step(const FreeSolid& motion, double time, double dt);
-  void update_pose();
-  Vector planar_rotation(const std::array<double, 3>& given) const;
+  void update_inertia();
 
   SolidOptions options_;
   int dimension_;
-  Vector gravity_, start_centre_;
+  Vector gravity_;
+  RigidPose pose_;
   double inertia_factor_, mass_ = 0.0, mobility_ = 0.0, turning_mobility_ = 0.0;
   Vector free_axes_ = Vector::Zero();                  ///< 1 where translation is free
   Eigen::Matrix3d inertia_ = Eigen::Matrix3d::Zero();  ///< in the shape's frame [kg m2]
   Eigen::Matrix3d inertia_now_ = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d turning_ = Eigen::Matrix3d::Zero();  ///< inverse of it on the free axes
-  Vector centre_, origin_, velocity_ = Vector::Zero(), spin_ = Vector::Zero();
+  Vector origin_, velocity_ = Vector::Zero(), spin_ = Vector::Zero();
   Vector predicted_velocity_ = Vector::Zero(), predicted_spin_ = Vector::Zero();
-  Vector turned_ = Vector::Zero();  ///< sum of the rotations of all steps [rad]
-  Eigen::Quaterniond turn_ = Eigen::Quaterniond::Identity();
   Eigen::Quaterniond first_turn_ = Eigen::Quaterniond::Identity();
   Vector impulse_ = Vector::Zero(), moment_ = Vector::Zero();  ///< of the present step
   Vector impulse_sum_ = Vector::Zero(), moment_sum_ = Vector::Zero();
   double elapsed_ = 0.0;  ///< of the outer step [s]
-  bool turned_at_all_ = false;
-  BoxShape box_;
 };
-
-/// The axis of space that an axis of the problem is.
-template <int D>
-constexpr int axis_in_space(int axis) {
-  return D == 2 && axis == 1 ? 2 : axis;
-}
-template <int D>
-Vec<D> to_axes(const Eigen::Vector3d& v) {
-  Vec<D> out;
-  for (int a = 0; a < D; ++a) out[a] = v[axis_in_space<D>(a)];
-  return out;
-}
-template <int D>
-Eigen::Vector3d to_space(const Vec<D>& v) {
-  Eigen::Vector3d out = Eigen::Vector3d::Zero();
-  for (int a = 0; a < D; ++a) out[axis_in_space<D>(a)] = v[a];
-  return out;
-}
-inline Eigen::Vector3d to_vector(const Point3& p) { return {p[0], p[1], p[2]}; }
-inline Point3 to_point(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
 
 }  // namespace mudlark

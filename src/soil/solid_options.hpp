@@ -5,25 +5,12 @@
 #include <variant>
 #include <vector>
 
-#include "base/varying.hpp"
-#include "grid/shape.hpp"
+#include "grid/rigid_pose.hpp"
 
 namespace mudlark {
 
-/// Vectors have components x, y, z. In the plane only x and z count, rotation has one component,
-/// the second, positive counter-clockwise with x to the right and z upwards, and what is per body
-/// is per metre of thickness.
-struct FixedSolid {};
-
-/// Motion that is given as functions of time.
-struct PrescribedSolid {
-  bool by_displacement = false;          ///< else by velocity
-  bool by_rotation = false;              ///< else by angular velocity
-  std::array<Varying, 3> translation{};  ///< of the centre: displacement [m] or velocity [m/s]
-  std::array<Varying, 3> rotation{};     ///< rotation vector [rad] or angular velocity [rad/s]
-};
-
-/// Motion under weight, given forces and the soil.
+/// Motion under weight, given forces and the soil. In the plane what is per body is per metre of
+/// thickness.
 struct FreeSolid {
   std::optional<double> mass;                    ///< [kg]; else from the density
   double density = 0.0;                          ///< [kg/m3]
@@ -44,15 +31,5 @@ struct SolidOptions {
   double friction = 0.0;  ///< Coulomb's coefficient [-]; infinite: soil sticks while it presses
   double adhesion = 0.0;  ///< shear strength of the contact without pressure [Pa]
 };
-
-/// Volume [m^D], its centre [m] and its second moments about the centre.
-struct SolidVolume {
-  double volume = 0.0;
-  Point3 centre{};
-  std::array<std::array<double, 3>, 3> moments{};  ///< integral of r r^T [m^(D+2)]
-};
-/// Exact for boxes and surfaces of triangles, to some 1e-4 for other shapes. Nothing for a shape
-/// without end (in the plane: along x or z) and for an empty one.
-std::optional<SolidVolume> volume_of(const Shape& shape, int dimension);
 
 }  // namespace mudlark

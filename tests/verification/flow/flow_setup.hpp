@@ -54,9 +54,11 @@ struct FlowRun {
   FlowRun(const DomainOptions& domain, const FlowOptions& options, MPI_Comm comm = MPI_COMM_WORLD)
       : grid(domain, comm), medium(grid), flow(grid, options) {
     fill_fixed_ground(grid, options, medium);
+    flow.place_solids(medium);
     flow.initialise(medium);
   }
   void step(double dt) {
+    flow.move_solids(medium, dt);
     flow.advance(medium, dt);
     time += dt;
   }

@@ -1,8 +1,8 @@
-/// Volume, centre and second moments of shapes.
+#include "grid/shape_volume.hpp"
+
 #include <cmath>
 
 #include "grid/triangle_mesh.hpp"
-#include "soil/solid_options.hpp"
 
 namespace mudlark {
 namespace {

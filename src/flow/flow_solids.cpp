@@ -1,0 +1,81 @@
+/// The part of the flow solver that knows of bodies.
+#include <algorithm>
+
+#include "flow/flow_checks.hpp"
+#include "flow/flow_solver.hpp"
+#include "numerics/loops.hpp"
+
+namespace mudlark {
+
+template <int D>
+void FlowSolver<D>::restore(PorousMedium<D>& medium) {
+  if (solids_.empty()) return;
+  solids_.fill(medium);
+  find_capacity(medium);
+  find_unknowns();
+}
+
+template <int D>
+void FlowSolver<D>::move_solids(PorousMedium<D>& medium, double dt) {
+  if (!solids_.moving()) return;
+  solids_.walls().extend_velocity(velocity_);  // what faces that open now begin with
+  solids_.move(time_, dt);
+  solids_.fill(medium);
+}
+
+/// Cells that bodies make or take change hands; those without a pressure unknown take the room that
+/// is there, or what their water needs until the pressure can push it out.
+template <int D>
+void FlowSolver<D>::follow_solids(const PorousMedium<D>& medium) {
+  ghosts_.update(water_);
+  ghosts_.update(porosity_);
+  solids_.regroup(medium.space, porosity_, water_);
+  const double* w = water_.data();
+  const double* given = medium.porosity.data();
+  const double* volume = medium.space.volume.data();
+  const double* loose = loose_.data();
+  double* theta = porosity_.data();
+  for_each_offset(*grid_, grid_->owned(), [&](std::ptrdiff_t at) {
+    if (loose[at] > 0.0) theta[at] = std::max(volume[at] * given[at], w[at]);
+  });
+}
+
+template <int D>
+WallPressure<D> FlowSolver<D>::wall_pressure() const {
+  return {*grid_, pressure_, projection_.unknown(), porosity_, saturation_, options_.density};
+}
+template <int D>
+double FlowSolver<D>::pressure_at(const Vec<D>& position) const {
+  // Beside bodies by the gradient from the next cell with a pressure.
+  double beside = 0.0, value = 0.0;
+  const Index<D> cell = grid_->cell_at(position);
+  if (!solids_.walls().empty() && grid_->owned().contains(cell)) {
+    IndexBox<D> around{cell, cell};
+    for (int a = 0; a < D; ++a) around.lower[a] -= 1, around.upper[a] += 2;
+    for_each(around, [&](const Index<D>& other) {
+      if (porosity_[other] == 0.0) beside = 1.0;
+    });
+    value = wall_pressure().mean(cell, position, 0.0);
+  }
+  if (sum_over_ranks(*grid_, beside) > 0.0) return sum_over_ranks(*grid_, value);
+  return interpolate(*grid_, pressure_.data(), -1, position);
+}
+template <int D>
+SolidLoad FlowSolver<D>::solid_load(std::size_t body, const std::optional<BoxShape>& part) const {
+  return load_on(*grid_, solids_, body, part, wall_pressure(), velocity_, options_.viscosity);
+}
+
+template WallPressure<2> FlowSolver<2>::wall_pressure() const;
+template void FlowSolver<2>::restore(PorousMedium<2>&);
+template void FlowSolver<2>::move_solids(PorousMedium<2>&, double);
+template void FlowSolver<2>::follow_solids(const PorousMedium<2>&);
+template double FlowSolver<2>::pressure_at(const Vec<2>&) const;
+template SolidLoad FlowSolver<2>::solid_load(std::size_t, const std::optional<BoxShape>&) const;
+template WallPressure<3> FlowSolver<3>::wall_pressure() const;
+template void FlowSolver<3>::restore(PorousMedium<3>&);
+template void FlowSolver<3>::move_solids(PorousMedium<3>&, double);
+template void FlowSolver<3>::follow_solids(const PorousMedium<3>&);
+template double FlowSolver<3>::pressure_at(const Vec<3>&) const;
+template SolidLoad FlowSolver<3>::solid_load(std::size_t, const std::optional<BoxShape>&) const;
+
+}  // namespace mudlark

@@ -1,0 +1,300 @@
+#include "flow/solid_bodies.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/errors.hpp"
+#include "flow/flow_checks.hpp"
+#include "grid/shape_volume.hpp"
+#include "numerics/loops.hpp"
+#include "parallel/collective_error.hpp"
+
+namespace mudlark {
+namespace {
+
+/// Cells with less open volume are joined to a neighbour: water that passes them would dictate the
+/// step to all others.
+constexpr double smallest_volume = 0.1;
+
+RigidPose start_pose(const FlowSolid& solid, int dimension) {
+  if (solid.centre) return {solid.shape, *solid.centre, dimension};
+  const auto volume = volume_of(solid.shape, dimension);
+  return {solid.shape, volume ? volume->centre : Point3{}, dimension};
+}
+
+}  // namespace
+
+template <int D>
+SolidBodies<D>::SolidBodies(const Grid<D>& grid, const std::vector<FlowSolid>& options)
+    : grid_(&grid),
+      options_(options),
+      velocities_(options.size()),
+      open_(grid),
+      cut_(grid),
+      walls_(grid),
+      ghosts_(grid) {
+  for (const FlowSolid& solid : options) {
+    poses_.push_back(start_pose(solid, D));
+    no_slip_ = no_slip_ || solid.no_slip;
+    moving_ = moving_ || std::holds_alternative<PrescribedSolid>(solid.motion);
+  }
+}
+
+template <int D>
+std::optional<std::size_t> SolidBodies<D>::find(const std::string& name) const {
+  for (std::size_t b = 0; b < options_.size(); ++b)
+    if (options_[b].name == name) return b;
+  return {};
+}
+
+template <int D>
+void SolidBodies<D>::move(double time, double dt) {
+  for (std::size_t b = 0; b < poses_.size(); ++b) {
+    const auto* given = std::get_if<PrescribedSolid>(&options_[b].motion);
+    if (!given) continue;
+    velocities_[b] = poses_[b].prescribed(*given, time, dt);
+    poses_[b].move(velocities_[b], dt);
+  }
+}
+
+template <int D>
+double SolidBodies<D>::limited_step(double time, double step) const {
+  BoxShape domain{{-1e300, -1e300, -1e300}, {1e300, 1e300, 1e300}};
+  for (int a = 0; a < D; ++a) {
+    const auto u = static_cast<std::size_t>(axis_in_space<D>(a));
+    domain.lower[u] = grid_->lower()[a], domain.upper[u] = grid_->upper()[a];
+  }
+  const double farthest = 0.25 * grid_->smallest_spacing();
+  for (std::size_t b = 0; b < poses_.size(); ++b) {
+    const auto* given = std::get_if<PrescribedSolid>(&options_[b].motion);
+    if (!given) continue;
+    for (int pass = 0; pass < 2; ++pass) {  // its speed over the shorter step may be another
+      const RigidVelocity motion = poses_[b].prescribed(*given, time, step);
+      const double turning =
+          motion.spin.squaredNorm() > 0.0 ? motion.spin.norm() * poses_[b].reach(domain) : 0.0;
+      const double way = (motion.velocity.norm() + turning) * step;
+      if (way > farthest) step *= farthest / way;
+    }
+  }
+  return step;
+}
+
+template <int D>
+Vec<D> SolidBodies<D>::velocity_at(std::size_t body, const Vec<D>& place) const {
+  const RigidVelocity& motion = velocities_[body];
+  return to_axes<D>(Eigen::Vector3d(motion.velocity +
+                                    motion.spin.cross(to_space<D>(place) - poses_[body].centre())));
+}
+
+template <int D>
+void SolidBodies<D>::fill(PorousMedium<D>& medium) {
+  if (empty()) return;
+  Space<D>& space = medium.space;
+  cut_.find(poses_);
+  for_each_offset(*grid_, grid_->local(), [&](std::ptrdiff_t at) {
+    space.volume.data()[at] = open_.volume.data()[at] * cut_.volume().data()[at];
+    for (int a = 0; a < D; ++a)
+      space.aperture[a].data()[at] = open_.aperture[a].data()[at] * cut_.aperture()[a].data()[at];
+  });
+  if (moving_) find_flux(medium.grain_flux);
+  join_small_cells(space);
+  close_faces(space);
+  close_lone_cells(space);
+  if (moving_) {
+    // What a joined cell gains or loses passes to its host through the face between them.
+    for (const JoinedCell<D>& joined : joined_) hand_on_flux(joined, medium.grain_flux);
+  }
+  walls_.find_cells(space);
+  walls_.find_faces(space, [&](WallFace<D>& wall) {
+    const Vec<D> place = grid_->face_centre(wall.axis, wall.face);
+    std::size_t body = 0;
+    const SurfaceDistance away =
+        cut_.nearest(poses_, to_point3(place), 4.0 * norm(grid_->spacing()), body);
+    if (body == poses_.size()) return;
+    for (int a = 0; a < D; ++a)
+      wall.normal[a] = away.normal[static_cast<std::size_t>(axis_in_space<D>(a))];
+    wall.velocity = velocity_at(body, place);
+  });
+}
+
+template <int D>
+bool SolidBodies<D>::is_inside(const Index<D>& cell) const {
+  for (int a = 0; a < D; ++a)
+    if (!grid_->periodic(a) && (cell[a] < 0 || cell[a] >= grid_->cells()[a])) return false;
+  return true;
+}
+
+/// The neighbour behind the widest face, else the largest of the cells around; none if all of them
+/// are too small as well.
+template <int D>
+std::optional<Index<D>> SolidBodies<D>::host_of(const Index<D>& cell) const {
+  std::optional<Index<D>> best;
+  double widest = 0.0;
+  for (int axis = 0; axis < D; ++axis)
+    for (int side = 0; side < 2; ++side) {
+      const Index<D> other = cell.shifted(axis, side == 0 ? -1 : 1);
+      if (!is_inside(other) || cut_.volume()[other] < smallest_volume) continue;
+      const double width = cut_.aperture()[axis][side == 0 ? cell : other];
+      if (width > widest * (1.0 + 1e-9)) widest = width, best = other;
+    }
+  if (best) return best;
+  const IndexBox<D> around{cell, cell};
+  IndexBox<D> box = around.grown(1);
+  for (int a = 0; a < D; ++a) box.upper[a] += 1;
+  for_each(box, [&](const Index<D>& other) {
+    if (other == cell || !is_inside(other)) return;
+    const double volume = cut_.volume()[other];
+    if (volume >= smallest_volume && volume > widest * (1.0 + 1e-9)) widest = volume, best = other;
+  });
+  return best;
+}
+
+template <int D>
+void SolidBodies<D>::join_small_cells(Space<D>& space) {
+  std::swap(joined_, joined_before_);
+  joined_.clear();
+  const IndexBox<D> box = grid_->local().grown(-1);
+  for_each(box, [&](const Index<D>& cell) {
+    const double volume = cut_.volume()[cell];
+    if (volume <= 0.0 || volume >= smallest_volume) return;
+    space.volume[cell] = 0.0;
+    if (!is_inside(cell)) return;
+    if (const auto host = host_of(cell)) {
+      joined_.push_back({cell, *host});
+      if (box.contains(*host)) space.volume[*host] += open_.volume[cell] * volume;
+    }
+  });
+  ghosts_.update(space.volume);
+}
+
+template <int D>
+void SolidBodies<D>::close_faces(Space<D>& space) const {
+  const double* volume = space.volume.data();
+  for (int axis = 0; axis < D; ++axis) {
+    IndexBox<D> inner = grid_->local();
+    inner.lower[axis] += 1;
+    const std::ptrdiff_t s = grid_->stride(axis);
+    double* aperture = space.aperture[axis].data();
+    for_each_offset(*grid_, inner, [&](std::ptrdiff_t at) {
+      if (volume[at] == 0.0 || volume[at - s] == 0.0) aperture[at] = 0.0;
+    });
+  }
+}
+
+/// Pores without any open face hold nothing that could move.
+template <int D>
+void SolidBodies<D>::close_lone_cells(Space<D>& space) {
+  const Grid<D>& grid = *grid_;
+  for_each(grid.owned(), [&](const Index<D>& cell) {
+    if (space.volume[cell] == 0.0) return;
+    for (int axis = 0; axis < D; ++axis)
+      for (int side = 0; side < 2; ++side) {
+        const Index<D> face = side == 0 ? cell : cell.shifted(axis, 1);
+        const bool wall =
+            !grid.periodic(axis) && face[axis] == (side == 0 ? 0 : grid.cells()[axis]);
+        if (wall && grid.wall(axis, side) != Wall::open) continue;
+        if (space.aperture[axis][face] > 0.0) return;
+      }
+    space.volume[cell] = 0.0;
+  });
+  ghosts_.update(space.volume);
+}
+
+/// (1 - aperture) v of the body on the faces of cells that are not all body: its divergence is the
+/// rate at which the open volume of a cell shrinks.
+template <int D>
+void SolidBodies<D>::find_flux(FaceVector<D>& flux) const {
+  const Grid<D>& grid = *grid_;
+  flux.fill(0.0);
+  for (int axis = 0; axis < D; ++axis) {
+    IndexBox<D> inner = grid.local();
+    inner.lower[axis] += 1;
+    for_each(inner, [&](const Index<D>& face) {
+      const double closed = 1.0 - cut_.aperture()[axis][face];
+      const bool beside = cut_.volume()[face] > 0.0 || cut_.volume()[face.shifted(axis, -1)] > 0.0;
+      if (closed <= 0.0 || !beside) return;
+      const Vec<D> place = grid.face_centre(axis, face);
+      std::size_t body = 0;
+      cut_.nearest(poses_, to_point3(place), 2.0 * norm(grid.spacing()), body);
+      if (body < poses_.size())
+        flux[axis][face] = open_.aperture[axis][face] * closed * velocity_at(body, place)[axis];
+    });
+  }
+}
+
+template <int D>
+void SolidBodies<D>::hand_on_flux(const JoinedCell<D>& joined, FaceVector<D>& flux) const {
+  double gain = 0.0;
+  int between = -1;
+  for (int axis = 0; axis < D; ++axis) {
+    gain += (flux[axis][joined.cell.shifted(axis, 1)] - flux[axis][joined.cell]) /
+            grid_->spacing()[axis];
+    for (const int step : {-1, 1})
+      if (joined.cell.shifted(axis, step) == joined.host) between = axis;
+  }
+  if (between < 0) return;  // a host across an edge: the drift of its room is taken back later
+  const bool above = joined.host[between] > joined.cell[between];
+  flux[between][above ? joined.host : joined.cell] +=
+      (above ? -gain : gain) * grid_->spacing()[between];
+}
+
+template <int D>
+void SolidBodies<D>::regroup(const Space<D>& space, CellField<D>& capacity, CellField<D>& water) {
+  const IndexBox<D>& local = grid_->local();
+  const IndexBox<D> box = local.grown(-1);
+  const auto pass = [&](const Index<D>& from, const Index<D>& to, double share) {
+    if (!local.contains(from) || !local.contains(to)) return;
+    const double moved = share * water[from], room = share * capacity[from];
+    water[from] = share < 1.0 ? water[from] - moved : 0.0;
+    capacity[from] = share < 1.0 ? capacity[from] - room : 0.0;
+    water[to] += moved, capacity[to] += room;
+  };
+  const auto host_now = [&](const Index<D>& cell) -> std::optional<Index<D>> {
+    for (const JoinedCell<D>& now : joined_)
+      if (now.cell == cell) return now.host;
+    return {};
+  };
+  const auto take_back = [&](const Index<D>& cell, const Index<D>& host) {
+    if (local.contains(host) && capacity[host] > 0.0)
+      pass(host, cell, std::min(open_.volume[cell] * cut_.volume()[cell] / capacity[host], 0.5));
+  };
+  // First out of the old hosts, while they still hold it; then out of cells that close.
+  for (const JoinedCell<D>& old : joined_before_)
+    if (cut_.volume()[old.cell] > 0.0 && host_now(old.cell) != old.host)
+      take_back(old.cell, old.host);
+  for_each(box, [&](const Index<D>& cell) {
+    if (space.volume[cell] == 0.0 || capacity[cell] > 0.0 || !is_inside(cell)) return;
+    if (const auto host = host_of(cell)) take_back(cell, *host);
+  });
+  for_each(box, [&](const Index<D>& cell) {
+    if (space.volume[cell] > 0.0 || capacity[cell] == 0.0 || !is_inside(cell)) return;
+    if (const auto host = host_of(cell)) pass(cell, *host, 1.0);
+  });
+  check_shut_in(space, capacity, water);
+  ghosts_.update(capacity);
+  ghosts_.update(water);
+}
+
+/// Water in a cell that bodies closed and no neighbour took ends the run.
+template <int D>
+void SolidBodies<D>::check_shut_in(const Space<D>& space, CellField<D>& capacity,
+                                   const CellField<D>& water) const {
+  std::string problem;
+  for_each(grid_->owned(), [&](const Index<D>& cell) {
+    if (space.volume[cell] > 0.0 || capacity[cell] == 0.0) return;
+    if (water[cell] > 0.0)
+      problem = fmt::format(
+          "A body closes a cell with water at {}, and no open cell beside it can take the water. "
+          "Leave a gap of more than a cell between moving bodies, walls and other bodies.",
+          place_text(grid_->cell_centre(cell)));
+    capacity[cell] = 0.0;
+  });
+  throw_divergence_if_any(grid_->comm(), problem);
+}
+
+template class SolidBodies<2>;
+template class SolidBodies<3>;
+
+}  // namespace mudlark

@@ -1,0 +1,92 @@
+#pragma once
+/// Impermeable bodies in the water: where they are, what they leave of cells and faces, and what
+/// water sees of them.
+#include <optional>
+
+#include "flow/options.hpp"
+#include "flow/porous_medium.hpp"
+#include "grid/cut_cells.hpp"
+#include "numerics/wall_band.hpp"
+
+namespace mudlark {
+
+/// A cell too small to stand alone: its room and its water belong to a neighbour.
+template <int D>
+struct JoinedCell {
+  Index<D> cell, host;
+};
+
+template <int D>
+class SolidBodies {
+ public:
+  SolidBodies(const Grid<D>& grid, const std::vector<FlowSolid>& options);
+
+  bool empty() const { return options_.empty(); }
+  bool moving() const { return moving_; }
+  bool no_slip() const { return no_slip_; }
+  /// The longest part of `step` from `time` on in which no surface moves by more than a quarter of
+  /// a cell: a body that passes a cell in a few steps hands its water on in as many parts [s].
+  double limited_step(double time, double step) const;
+  std::size_t size() const { return options_.size(); }
+  const FlowSolid& options(std::size_t body) const { return options_[body]; }
+  const RigidPose& pose(std::size_t body) const { return poses_[body]; }
+  const RigidVelocity& velocity(std::size_t body) const { return velocities_[body]; }
+  /// The body of that name, if there is one.
+  std::optional<std::size_t> find(const std::string& name) const;
+
+  /// Moves the bodies over a step [s].
+  void move(double time, double dt);
+  /// Room that the bodies leave where they are now, and the volume flux of those that move.
+  void fill(PorousMedium<D>& medium);
+
+  const std::vector<CutCell<D>>& surface() const { return cut_.surface(); }
+  /// Share of each cell that is no body, before small cells are joined to others.
+  const CellField<D>& open_volume() const { return cut_.volume(); }
+  WallBand<D>& walls() { return walls_; }
+  const WallBand<D>& walls() const { return walls_; }
+
+  /// After bodies moved: cells that became too small hand their room and water to their hosts, and
+  /// those that are no longer take theirs back. Volume stays to the last bit but round-off. Throws
+  /// DivergenceError when water is shut in.
+  void regroup(const Space<D>& space, CellField<D>& capacity, CellField<D>& water);
+
+  template <class Archive>
+  void archive(Archive& a) {
+    for (std::size_t b = 0; b < poses_.size(); ++b) {
+      const std::string at = "solid/" + options_[b].name + "/";
+      poses_[b].archive(a, at);
+      for (int i = 0; i < 3; ++i) {
+        a.number(at + "velocity " + std::to_string(i), velocities_[b].velocity[i]);
+        a.number(at + "spin " + std::to_string(i), velocities_[b].spin[i]);
+      }
+    }
+  }
+
+ private:
+  void join_small_cells(Space<D>& space);
+  bool is_inside(const Index<D>& cell) const;
+  std::optional<Index<D>> host_of(const Index<D>& cell) const;
+  void close_lone_cells(Space<D>& space);
+  void close_faces(Space<D>& space) const;
+  void find_flux(FaceVector<D>& flux) const;
+  void hand_on_flux(const JoinedCell<D>& joined, FaceVector<D>& flux) const;
+  void check_shut_in(const Space<D>& space, CellField<D>& capacity,
+                     const CellField<D>& water) const;
+  Vec<D> velocity_at(std::size_t body, const Vec<D>& place) const;
+
+  const Grid<D>* grid_;
+  std::vector<FlowSolid> options_;
+  std::vector<RigidPose> poses_;
+  std::vector<RigidVelocity> velocities_;
+  bool moving_ = false, no_slip_ = false;
+  Space<D> open_;  ///< without bodies
+  CutCells<D> cut_;
+  WallBand<D> walls_;
+  Ghosts<D> ghosts_;
+  std::vector<JoinedCell<D>> joined_, joined_before_;
+};
+
+extern template class SolidBodies<2>;
+extern template class SolidBodies<3>;
+
+}  // namespace mudlark

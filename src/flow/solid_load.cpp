@@ -1,0 +1,142 @@
+#include "flow/solid_load.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "numerics/loops.hpp"
+
+namespace mudlark {
+
+/// Differences to neighbours with a pressure; where there is none along an axis, that of water at
+/// rest.
+template <int D>
+Vec<D> WallPressure<D>::gradient(const Index<D>& cell) const {
+  const Grid<D>& grid = *grid_;
+  Vec<D> slope;
+  for (int a = 0; a < D; ++a) {
+    const Index<D> lower = cell.shifted(a, -1), upper = cell.shifted(a, 1);
+    const bool below = known(lower), above = known(upper);
+    const double p = (*pressure_)[cell];
+    const double down = grid.gap(a, cell[a]), up = grid.gap(a, upper[a]);
+    if (below && above)
+      slope[a] = ((*pressure_)[upper] - (*pressure_)[lower]) / (down + up);
+    else if (below)
+      slope[a] = (p - (*pressure_)[lower]) / down;
+    else
+      slope[a] = above ? ((*pressure_)[upper] - p) / up : density_ * grid.gravity()[a];
+  }
+  return slope;
+}
+
+template <int D>
+std::optional<Index<D>> WallPressure<D>::source(const Index<D>& cell) const {
+  if (known(cell)) return cell;
+  for (int a = D - 1; a >= 0; --a)
+    for (const int step : {-1, 1})
+      if (known(cell.shifted(a, step))) return cell.shifted(a, step);
+  std::optional<Index<D>> found;
+  IndexBox<D> around{cell, cell};
+  for (int a = 0; a < D; ++a) around.lower[a] -= 1, around.upper[a] += 2;
+  for_each(around, [&](const Index<D>& other) {
+    if (!found && known(other)) found = other;
+  });
+  return found;
+}
+
+template <int D>
+double WallPressure<D>::at(const Index<D>& cell, const Vec<D>& place) const {
+  const auto from = source(cell);
+  if (!from) return 0.0;
+  return (*pressure_)[*from] + dot(gradient(*from), place - grid_->cell_centre(*from));
+}
+
+template <int D>
+double WallPressure<D>::mean(const Index<D>& cell, const Vec<D>& place, double height) const {
+  constexpr double dry = 1e-6, full = 1.0 - 1e-6;
+  const double alpha = (*saturation_)[cell];
+  const auto from = source(cell);
+  if (!from || (!known(cell) && (*room_)[cell] > 0.0 && alpha < dry)) return 0.0;
+  const double middle = at(cell, place);
+  if (known(cell) && alpha > full) return middle;
+  const double half = 0.5 * height * std::abs(gradient(*from)[D - 1]);
+  const double low = middle - half, high = middle + half;
+  if (low >= 0.0) return middle;
+  return high <= 0.0 ? 0.0 : 0.5 * high * high / (high - low);
+}
+
+namespace {
+
+/// Stress per tangential speed beside the wall [Pa s/m]: the water's centre lies a quarter of a
+/// cell away at least.
+template <int D>
+double stress_per_speed(const Grid<D>& grid, const CutCell<D>& cut, double viscosity) {
+  const Vec<D> out = grid.cell_centre(cut.cell) - cut.middle;
+  const double away = std::abs(dot(out, cut.area)) / norm(cut.area);
+  return viscosity / std::max(away, 0.25 * grid.smallest_spacing());
+}
+
+}  // namespace
+
+template <int D>
+void add_body_friction(const Grid<D>& grid, const SolidBodies<D>& solids,
+                       const CellField<D>& capacity, double viscosity, FaceVector<D>& resistance) {
+  for (const CutCell<D>& cut : solids.surface()) {
+    if (!solids.options(cut.body).no_slip) continue;
+    const double drag = stress_per_speed(grid, cut, viscosity) * norm(cut.area);
+    for (int a = 0; a < D; ++a)
+      for (const Index<D>& face : {cut.cell, cut.cell.shifted(a, 1)}) {
+        const double room = 0.5 * (capacity[face] + capacity[face.shifted(a, -1)]);
+        if (room > 0.0) resistance[a][face] += 0.5 * drag / (room * grid.cell_volume());
+      }
+  }
+}
+
+template <int D>
+SolidLoad load_on(const Grid<D>& grid, const SolidBodies<D>& solids, std::size_t body,
+                  const std::optional<BoxShape>& part, const WallPressure<D>& pressure,
+                  const FaceVector<D>& velocity, double viscosity) {
+  constexpr int up = D - 1;
+  SolidLoad load;
+  for (const CutCell<D>& cut : solids.surface()) {
+    if (cut.body != body) continue;
+    const Point3 place = to_point3(cut.middle);
+    if (part && !Shape{*part}.contains(place)) continue;
+    double height2 = 0.0;  // of the wall in the cell: area seen from the side over its width
+    for (int a = 0; a < up; ++a) {
+      double width = 1.0;
+      for (int b = 0; b < up; ++b) width *= b == a ? 1.0 : grid.width(b, cut.cell[b]);
+      height2 += (cut.area[a] / width) * (cut.area[a] / width);
+    }
+    const double height = std::min(grid.width(up, cut.cell[up]), std::sqrt(height2));
+    const double p = pressure.mean(cut.cell, cut.middle, height);
+    Vec<D> total = (-p) * cut.area;
+    if (solids.options(body).no_slip && pressure.wet(cut.cell)) {
+      const double drag = stress_per_speed(grid, cut, viscosity) * norm(cut.area);
+      for (int a = 0; a < D; ++a)
+        total[a] += 0.5 * drag * (velocity[a][cut.cell] + velocity[a][cut.cell.shifted(a, 1)]);
+    }
+    const Eigen::Vector3d force = to_space<D>(total);
+    load.force += force;
+    load.moment += (to_space<D>(cut.middle) - solids.pose(body).centre()).cross(force);
+  }
+  for (int a = 0; a < 3; ++a) {
+    load.force[a] = sum_over_ranks(grid, load.force[a]);
+    load.moment[a] = sum_over_ranks(grid, load.moment[a]);
+  }
+  return load;
+}
+
+template class WallPressure<2>;
+template class WallPressure<3>;
+template SolidLoad load_on(const Grid<2>&, const SolidBodies<2>&, std::size_t,
+                           const std::optional<BoxShape>&, const WallPressure<2>&,
+                           const FaceVector<2>&, double);
+template void add_body_friction(const Grid<2>&, const SolidBodies<2>&, const CellField<2>&, double,
+                                FaceVector<2>&);
+template SolidLoad load_on(const Grid<3>&, const SolidBodies<3>&, std::size_t,
+                           const std::optional<BoxShape>&, const WallPressure<3>&,
+                           const FaceVector<3>&, double);
+template void add_body_friction(const Grid<3>&, const SolidBodies<3>&, const CellField<3>&, double,
+                                FaceVector<3>&);
+
+}  // namespace mudlark
