@@ -45,6 +45,7 @@ FlowSolver<D>::FlowSolver(const Grid<D>& grid, const FlowOptions& options)
       projection_(grid, options),
       extension_(grid),
       waves_(grid, options.waves),
+      sides_(grid, options.sides, options.density),
       solids_(grid, options.solids),
       water_(grid, "water fraction", "1"),
       porosity_(grid, "porosity", "1", 1.0),
@@ -143,11 +144,13 @@ void FlowSolver<D>::initialise(const PorousMedium<D>& medium) {
   find_capacity(medium);
   fill_with_bodies();
   update_derived();
+  find_sides(0.0);
   initial_volume_ = ledger().present;
   outflow_ = time_ = 0.0;
   step_ = 0;
   find_unknowns();
   project_start(medium);
+  hold_sides();
   if (turbulence_) turbulence_->find(medium, saturation_, velocity_);
 }
 
@@ -204,6 +207,7 @@ void FlowSolver<D>::project_start(const PorousMedium<D>& medium) {
       if (grid.touches(a, side) && grid.wall(a, side) != Wall::open)
         zero_wall(grid, a, side, flux_[a]);
   }
+  sides_.push(mobility_, projection_.unknown(), flux_);
   target_.fill(0.0);
   last_solve_ =
       projection_.project(capacity_, mobility_, target_, no_storage_, pressure_, flux_, round_off);
@@ -261,7 +265,7 @@ void FlowSolver<D>::transport(const PorousMedium<D>& medium, double dt) {
   if (gas_) gas_->begin(water_, porosity_);
   // Spray in gas keeps its planes: mixed, it would spread through the gas as mist.
   interface_.sweep(water_, porosity_, flux_, dt, step_, gas_ ? Spray::sharp : Spray::mixed,
-                   &solids_.walls());
+                   &solids_.walls(), sides_.empty() ? nullptr : &sides_.inflow());
   move_porosity(grid, porosity_, flux_, dt, new_porosity_);
   const double* w = old_water_.data();
   const double* theta = porosity_.data();
@@ -298,6 +302,7 @@ void FlowSolver<D>::advance(const PorousMedium<D>& medium, double dt, MovingGrai
   transport(medium, dt);
   if (!waves_.empty()) make_waves(dt);
   update_derived();
+  find_sides(time_ + dt);
   find_unknowns();
   if (options_.wall_law != WallLaw::resolved)
     find_wall_friction(*grid_, options_, water_, velocity_, wall_friction_);
@@ -311,6 +316,8 @@ void FlowSolver<D>::advance(const PorousMedium<D>& medium, double dt, MovingGrai
   predictor_.advance(medium, porosity_, capacity_, wall_friction_, time_, dt,
                      gas_ ? &gas_->mixture() : nullptr,
                      turbulence_ ? &turbulence_->viscosity() : nullptr, velocity_, mobility_);
+  hold_sides();
+  sides_.push(mobility_, projection_.unknown(), velocity_);
   find_target(medium, dt, grains ? slow_feedback(*grid_) : HUGE_VAL);
   const bool gas_gives_way = gas_ && gas_->compressible();
   const CellField<D>& give_way =
@@ -323,6 +330,7 @@ void FlowSolver<D>::advance(const PorousMedium<D>& medium, double dt, MovingGrai
                                       options_.pressure_tolerance / dt);
   ghosts_.update_velocity(velocity_);
   if (!gas_) extension_.extend(projection_.unknown(), water_, porosity_, capacity_, velocity_);
+  hold_sides();
   check_finite();
   if (turbulence_) turbulence_->find(medium, saturation_, velocity_);
   step_ += 1;
@@ -352,13 +360,27 @@ void FlowSolver<D>::make_waves(double dt) {
   waves_.blend_velocity(water_, time_, dt, velocity_);
 }
 
+/// Sides that water flows through as given: from the present water and a time [s].
+template <int D>
+void FlowSolver<D>::find_sides(double time) {
+  if (sides_.empty()) return;
+  sides_.find(water_, porosity_, capacity_, time);
+  hold_sides();
+}
+
+/// What the ghosts and the predictor make of walls is at rest.
+template <int D>
+void FlowSolver<D>::hold_sides() {
+  sides_.apply(porosity_, water_, velocity_);
+}
+
 template <int D>
 void FlowSolver<D>::add_outflow() {
   const Grid<D>& grid = *grid_;
   double volume = 0.0;
   for (int axis = 0; axis < D; ++axis)
     for (int side = 0; side < 2; ++side) {
-      if (!grid.touches(axis, side) || grid.wall(axis, side) != Wall::open) continue;
+      if (!grid.touches(axis, side)) continue;
       const double* through = interface_.water_flux()[axis].data();
       for_each_offset(grid, wall_faces(grid, axis, side),
                       [&](std::ptrdiff_t at) { volume += side == 0 ? -through[at] : through[at]; });

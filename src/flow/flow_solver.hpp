@@ -117,6 +117,7 @@ class FlowSolver {
     ghosts_.exchange(capacity_);
     if (turbulence_) turbulence_->archive(a);
     update_derived();
+    find_sides(time_);
   }
 
  private:
@@ -129,6 +130,8 @@ class FlowSolver {
   void find_target(const PorousMedium<D>& medium, double dt, double most);
   void add_outflow();
   void make_waves(double dt);
+  void find_sides(double time);
+  void hold_sides();
   void project_start(const PorousMedium<D>& medium);
   void find_unknowns();
   bool incompressible(double water, double porosity) const;
@@ -148,6 +151,7 @@ class FlowSolver {
   Projection<D> projection_;
   VelocityExtension<D> extension_;
   WaveZones<D> waves_;
+  FlowSides<D> sides_;
   std::optional<TwoFluids<D>> gas_;
   std::optional<Turbulence<D>> turbulence_;
   std::optional<GrainsInWater<D>> with_grains_;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/varying.hpp"
+#include "flow/flow_sides.hpp"
 #include "flow/wave_zone.hpp"
 #include "grid/rigid_pose.hpp"
 
@@ -77,6 +78,7 @@ struct FlowOptions {
       1e-10;  ///< bound on the largest residual divergence times the step [-]
   std::vector<WaveZoneOptions> waves;
   TurbulenceOptions turbulence;
+  std::vector<FlowSideOptions> sides;
   WallLaw wall_law = WallLaw::resolved;
   bool advection = true;  ///< momentum advection (off: Stokes flow, for tests)
   std::optional<std::array<Varying, 3>> body_acceleration;  ///< beside gravity [m/s2]

@@ -9,10 +9,6 @@
 namespace mudlark {
 namespace {
 
-double ramp_share(double ramp, double time) {
-  return time < ramp ? 0.5 * (1.0 - std::cos(std::numbers::pi * time / ramp)) : 1.0;
-}
-
 double inward(const WaveZoneOptions& zone) { return zone.inner > zone.outer ? 1.0 : -1.0; }
 
 /// The lowest layer of a box: one index per column.
@@ -23,6 +19,10 @@ IndexBox<D> columns_of(IndexBox<D> box) {
 }
 
 }  // namespace
+
+double ramp_share(double ramp, double time) {
+  return time < ramp ? 0.5 * (1.0 - std::cos(std::numbers::pi * time / ramp)) : 1.0;
+}
 
 std::unique_ptr<const WaveMotion> make_wave(const WaveZoneOptions& zone, double gravity) {
   return make_wave(zone.wave, {zone.depth, gravity, zone.direction, zone.current * inward(zone)});

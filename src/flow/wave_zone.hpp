@@ -29,6 +29,9 @@ struct WaveZoneOptions {
   double damping = 0.0;  ///< of a sponge at its outer end [1/s]
 };
 
+/// Share of the wave that is there while it grows.
+double ramp_share(double ramp, double time);
+
 /// The motion that a zone relaxes towards, in its own frame.
 std::unique_ptr<const WaveMotion> make_wave(const WaveZoneOptions& zone, double gravity);
 

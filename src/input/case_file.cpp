@@ -42,6 +42,7 @@ CaseOptions read_case(const std::filesystem::path& file, std::span<const std::st
   read_loads(root, options);
   read_boundaries(root, options);
   read_waves(root, options);
+  read_openings(root, options);
   read_solvers(root, options, courant);
   finish_stages(stages, options);
   check_boundaries(root, options);

@@ -25,6 +25,8 @@ inline constexpr Quantity density{"a density", "kg/m3", "\"2.65 g/cm3\""};
 inline constexpr Quantity viscosity{"a dynamic viscosity", "Pa s", "\"1.002e-3 Pa s\""};
 inline constexpr Quantity velocity{"a velocity", "m/s", "\"1e-4 cm/s\""};
 inline constexpr Quantity rate{"a rate", "1/s", "\"2 s-1\""};
+inline constexpr Quantity discharge{"a discharge", "m3/s", "\"20 L/s\""};
+inline constexpr Quantity discharge_in_plane{"a discharge per metre", "m2/s", "\"0.1 m2/s\""};
 inline constexpr Quantity acceleration{"an acceleration", "m/s2", "\"9.81 m/s2\""};
 inline constexpr Quantity specific_energy{"an energy per mass", "m2/s2", "\"1e-4 m2/s2\""};
 inline constexpr Quantity permeability{"an intrinsic permeability", "m2", "\"1e-10 m2\""};

@@ -2,68 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "input/sections.hpp"
 
 namespace mudlark {
 namespace {
-
-std::string side_name(const SoilBoundary& boundary, int dimension) {
-  constexpr std::array<const char*, 3> axes{"x", "y", "z"};
-  const int axis = dimension == 2 && boundary.axis == 1 ? 2 : boundary.axis;
-  return fmt::format("{}_{}", boundary.side == 0 ? "lower" : "upper",
-                     axes[static_cast<std::size_t>(axis)]);
-}
-
-/// Place of an axis of the grid in (x, y, z).
-std::size_t coordinate(int axis, int dimension) {
-  return static_cast<std::size_t>(dimension == 2 && axis == 1 ? 2 : axis);
-}
-
-void read_side(Section& section, int dimension, SoilBoundary& boundary) {
-  std::vector<Choice<int>> sides;
-  for (int axis = 0; axis < dimension; ++axis)
-    for (int side = 0; side < 2; ++side) {
-      SoilBoundary named;
-      named.axis = axis, named.side = side;
-      sides.push_back({side_name(named, dimension), 2 * axis + side});
-    }
-  const int chosen = section.choice<int>("side", sides);
-  boundary.axis = chosen / 2, boundary.side = chosen % 2;
-}
-
-/// from and to: a number in the plane, a list of two in space (the axes along the side).
-void read_range(Section& section, int dimension, SoilBoundary& boundary) {
-  std::vector<std::size_t> along;
-  for (int axis = 0; axis < dimension; ++axis)
-    if (axis != boundary.axis) along.push_back(coordinate(axis, dimension));
-  for (const auto& [key, range] : {std::pair{"from", &boundary.from}, {"to", &boundary.to}}) {
-    if (!section.has(key)) continue;
-    if (dimension == 2) {
-      (*range)[along[0]] = section.number(key, quantity::length, {});
-      continue;
-    }
-    const auto values = section.numbers(key, quantity::length, 0);
-    if (values.size() != 2 && !values.empty())
-      section.fail(key, fmt::format("two lengths are expected, along {} and {}", "xyz"[along[0]],
-                                    "xyz"[along[1]]));
-    if (values.size() == 2) (*range)[along[0]] = values[0], (*range)[along[1]] = values[1];
-  }
-  const Reading& reading = section.reading();
-  if (!reading.domain || !reading.report.empty()) return;
-  for (const std::size_t a : along) {
-    const double h = reading.spacing[a], lower = reading.domain->lower[a];
-    const double first = std::max(boundary.from[a], lower);
-    const double last = std::min(boundary.to[a], reading.domain->upper[a]);
-    const double next_centre = lower + (std::ceil((first - lower) / h - 0.5) + 0.5) * h;
-    if (!(next_centre < last))
-      return section.fail(section.has("to") ? "to" : "from",
-                          "no cell of the side has its centre between from and to",
-                          fmt::format("The side goes from {:g} to {:g} m in cells of {:g} m.",
-                                      lower, reading.domain->upper[a], h));
-  }
-}
 
 void read_moving(Section& section, SoilBoundary& boundary) {
   const bool velocity = section.has("velocity"), displacement = section.has("displacement");
@@ -173,6 +116,11 @@ void read_water(Section& section, const DomainOptions& domain, SoilBoundary& bou
                                                      : WaterSide::pressure;
 }
 
+/// Place of an axis of the grid in (x, y, z).
+std::size_t coordinate(int axis, int dimension) {
+  return static_cast<std::size_t>(dimension == 2 && axis == 1 ? 2 : axis);
+}
+
 bool overlap(const SoilBoundary& one, const SoilBoundary& other, int dimension) {
   if (one.axis != other.axis || one.side != other.side) return false;
   for (int axis = 0; axis < dimension; ++axis) {
@@ -236,9 +184,10 @@ void read_boundaries(Section& root, CaseOptions& options) {
     SoilBoundary boundary;
     boundary.name = read_name(section, names);
     const std::size_t before = root.reading().report.size();
-    read_side(section, options.domain.dimension, boundary);
+    const SidePart part = read_side(section, options.domain.dimension);
+    boundary.axis = part.axis, boundary.side = part.side;
     const bool known = root.reading().report.size() == before;
-    read_range(section, options.domain.dimension, boundary);
+    read_range(section, options.domain.dimension, part.axis, boundary.from, boundary.to);
     read_grains(section, boundary);
     read_water(section, options.domain, boundary);
     section.finish();

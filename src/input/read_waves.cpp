@@ -90,6 +90,27 @@ void read_zone(Section& wave, WaveZoneOptions& zone) {
   section.finish();
 }
 
+/// side = "lower_x" in place of a zone: the wave comes in there, and what comes to it may leave.
+std::optional<FlowSideOptions> read_wave_side(Section& wave, const DomainOptions& domain,
+                                              WaveZoneOptions& zone) {
+  if (!wave.has("side")) {
+    read_zone(wave, zone);
+    return {};
+  }
+  wave.forbid("zone", "a wave is made at a side or in a zone");
+  const SidePart part = read_side(wave, domain.dimension);
+  FlowSideOptions side;
+  side.name = zone.name;
+  side.flow = SideFlow::wave;
+  side.axis = zone.axis = part.axis;
+  side.side = part.side;
+  const auto axis = static_cast<std::size_t>(part.axis);
+  if (part.axis == domain.dimension - 1) wave.fail("side", "waves come in through a vertical side");
+  zone.outer = part.side == 0 ? domain.lower[axis] : domain.upper[axis];
+  zone.inner = part.side == 0 ? domain.upper[axis] : domain.lower[axis];
+  return side;
+}
+
 WaveKind read_kind(Section& section, WaveZoneOptions& zone) {
   switch (section.choice<Kind>("type", {{"regular", Kind::regular},
                                         {"solitary", Kind::solitary},
@@ -148,7 +169,7 @@ void check_wave(Section& section, const WaveZoneOptions& zone, double gravity, s
                           std::holds_alternative<IrregularSea>(zone.wave) ||
                           std::holds_alternative<FocusedWave>(zone.wave);
     const double length = std::abs(zone.inner - zone.outer);
-    if (periodic && length < 0.5 * motion->length())
+    if (periodic && section.has("zone") && length < 0.5 * motion->length())
       section.fail("zone",
                    fmt::format("it is {:.4g} m long, less than half of the wave of {:.4g} m",
                                length, motion->length()),
@@ -173,8 +194,10 @@ void read_waves(Section& root, CaseOptions& options) {
     const std::size_t before = section.reading().report.size();
     WaveZoneOptions zone;
     zone.name = read_name(section, names);
-    read_zone(section, zone);
+    auto side = read_wave_side(section, options.domain, zone);
     zone.wave = read_kind(section, zone);
+    if (side && zone.action == ZoneAction::velocity)
+      section.fail("type", "a sponge is a zone", "Write zone = { outer = .., inner = .. }.");
     zone.still_level = section.number("still_level", quantity::length, {});
     zone.depth = section.number("depth", quantity::length,
                                 positive("waves need water; the depth lies above 0"),
@@ -185,7 +208,12 @@ void read_waves(Section& root, CaseOptions& options) {
     if (gravity <= 0.0) section.fail("type", "waves need gravity, and it does not point down here");
     check_wave(section, zone, gravity, before);
     section.finish();
-    options.flow->waves.push_back(std::move(zone));
+    if (!side) {
+      options.flow->waves.push_back(std::move(zone));
+      continue;
+    }
+    side->wave = std::move(zone);
+    if (section.reading().report.size() == before) add_flow_side(section, options, *side);
   }
 }
 

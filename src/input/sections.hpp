@@ -77,6 +77,18 @@ SeaComponents read_sea(Section& wave, bool random);
 /// [[solid]]: after [[water.body]] and [[soil]].
 void read_solids(Section& root, CaseOptions& options);
 void read_loads(Section& root, CaseOptions& options);
+/// A side of the domain by its name, `side = "lower_x"`.
+struct SidePart {
+  int axis = 0, side = 0;
+};
+SidePart read_side(Section& section, int dimension);
+/// from and to, the part along a side of axis `across`: a number in the plane, a list of two in
+/// space (the axes along the side).
+void read_range(Section& section, int dimension, int across, Point3& from, Point3& to);
+/// [[opening]]: after [domain] and [water].
+void read_openings(Section& root, CaseOptions& options);
+/// Checks what water does at a side against walls and other sides, and adds it.
+void add_flow_side(Section& section, CaseOptions& options, const FlowSideOptions& side);
 /// [[boundary]]: after [domain] and [[soil]].
 void read_boundaries(Section& root, CaseOptions& options);
 /// What boundaries do not go with, after [soil_solver] and [[solid]].

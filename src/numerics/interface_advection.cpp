@@ -31,7 +31,9 @@ Plane<D> InterfaceAdvection<D>::plane(const double* alpha, std::ptrdiff_t at) co
 template <int D>
 void InterfaceAdvection<D>::sweep(CellField<D>& water, const CellField<D>& porosity,
                                   const FaceVector<D>& flux, double dt, std::int64_t order,
-                                  Spray spray, const WallBand<D>* walls) {
+                                  Spray spray, const WallBand<D>* walls,
+                                  const FaceVector<D>* inflow) {
+  inflow_ = inflow;
   const double* w = water.data();
   const double* theta = porosity.data();
   double* c = dilates_.data();
@@ -70,13 +72,14 @@ void InterfaceAdvection<D>::sweep_axis(CellField<D>& water, const CellField<D>& 
     const std::ptrdiff_t donor = u[at] > 0.0 ? at - s : at;
     through[at] = u[at] == 0.0 ? 0.0 : water_through(u[at] * courant, donor, axis, theta[donor]);
   });
-  for (int side = 0; side < 2; ++side) {  // only air comes in through an open wall
+  for (int side = 0; side < 2; ++side) {  // only air comes in through a wall, or what is let in
     if (!grid.touches(axis, side)) continue;
     IndexBox<D> wall = grid.owned();
     wall.lower[axis] = side == 0 ? wall.lower[axis] : wall.upper[axis];
     wall.upper[axis] = wall.lower[axis] + 1;
     for_each_offset(grid, wall, [&](std::ptrdiff_t at) {
-      if (side == 0 ? u[at] > 0.0 : u[at] < 0.0) through[at] = 0.0;
+      if (side == 0 ? u[at] > 0.0 : u[at] < 0.0)
+        through[at] = inflow_ ? (*inflow_)[axis].data()[at] * u[at] * courant : 0.0;
     });
   }
   double* out = water.data();

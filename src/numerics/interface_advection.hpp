@@ -35,11 +35,11 @@ class InterfaceAdvection {
   /// The D sweeps. `flux` is U = theta_f v [m/s], `porosity` the theta that it was made with; both
   /// need valid ghosts and stay fixed. Then `water` lacks the fourth sweep. `order` permutes the
   /// axes: count it up every step. `walls`: bodies behind which interface normals see the water go
-  /// on. Bound: dt * max(sum of inflow, sum of outflow) <= theta/2 in
-  /// every cell.
+  /// on. `inflow`: share of water in what comes in through each face of a wall; without it only air
+  /// does. Bound: dt * max(sum of inflow, sum of outflow) <= theta/2 in every cell.
   void sweep(CellField<D>& water, const CellField<D>& porosity, const FaceVector<D>& flux,
              double dt, std::int64_t order, Spray spray = Spray::sharp,
-             const WallBand<D>* walls = nullptr);
+             const WallBand<D>* walls = nullptr, const FaceVector<D>* inflow = nullptr);
 
   /// Fourth sweep: W += c (theta_new - theta); then theta = theta_new. Owned cells.
   void follow_porosity(CellField<D>& water, CellField<D>& porosity,
@@ -66,6 +66,7 @@ class InterfaceAdvection {
   CellField<D> mixed_;  ///< 1 in cells of mixed spray
   std::vector<Plane<D>> planes_;
   FaceVector<D> water_flux_;
+  const FaceVector<D>* inflow_ = nullptr;  ///< of the present sweep
   std::array<std::ptrdiff_t, D> strides_{};
 };
 

@@ -1,0 +1,244 @@
+#include "flow/flow_sides.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/errors.hpp"
+#include "flow/flow_checks.hpp"
+#include "numerics/loops.hpp"
+
+namespace mudlark {
+namespace {
+
+/// A position in (x, y, z), and whether it lies within the part of a side, whose own axis does not
+/// count.
+template <int D>
+bool within(const FlowSideOptions& options, const Vec<D>& position) {
+  const Point3 place = to_point3(position);
+  for (int axis = 0; axis < D; ++axis) {
+    const auto a = static_cast<std::size_t>(D == 2 && axis == 1 ? 2 : axis);
+    if (axis != options.axis && !(place[a] >= options.from[a] && place[a] < options.to[a]))
+      return false;
+  }
+  return true;
+}
+
+double inwards(const FlowSideOptions& options) { return options.side == 0 ? 1.0 : -1.0; }
+
+}  // namespace
+
+template <int D>
+FlowSides<D>::FlowSides(const Grid<D>& grid, const std::vector<FlowSideOptions>& options,
+                        double density)
+    : grid_(&grid),
+      gravity_(std::max(-grid.gravity()[D - 1], 0.0)),
+      density_(density),
+      speed_(grid, "speed of sides", "m/s"),
+      inflow_(grid, "share of water in inflow", "1"),
+      pressure_(grid, "pressure on sides", "Pa") {
+  for (const FlowSideOptions& one : options) {
+    Side side{one, nullptr, {}};
+    if (one.flow == SideFlow::wave) side.motion = make_wave(one.wave, gravity_);
+    std::size_t columns = 1;
+    for (int a = 0; a < D - 1; ++a)
+      if (a != one.axis) columns *= static_cast<std::size_t>(grid.cells()[a]);
+    side.levels.resize(columns);
+    sides_.push_back(std::move(side));
+  }
+}
+
+/// Calls body(at, index) for the faces of a side's part on this rank, those in the ghost layers
+/// across its axis included.
+template <int D>
+template <class Body>
+void FlowSides<D>::for_each_face(const Side& side, Body&& body) const {
+  const Grid<D>& grid = *grid_;
+  const int axis = side.options.axis;
+  if (!grid.touches(axis, side.options.side)) return;
+  IndexBox<D> box = grid.local();
+  const IndexBox<D> wall = wall_faces(grid, axis, side.options.side);
+  box.lower[axis] = wall.lower[axis];
+  box.upper[axis] = wall.upper[axis];
+  for_each_place(grid, box, [&](std::ptrdiff_t at, const Index<D>& index) {
+    if (within(side.options, grid.face_centre(axis, index))) body(at, index);
+  });
+}
+
+/// Towards the cells behind the wall: from a face to the cell outside it, and from there on.
+template <int D>
+std::ptrdiff_t FlowSides<D>::outward(const Side& side) const {
+  return side.options.side == 0 ? -grid_->stride(side.options.axis)
+                                : grid_->stride(side.options.axis);
+}
+
+template <int D>
+std::size_t FlowSides<D>::column(const Side& side, const Index<D>& index) const {
+  if (D == 2 || side.options.axis == D - 1) return 0;
+  const int across = 1 - side.options.axis;
+  return static_cast<std::size_t>(std::clamp(index[across], 0, grid_->cells()[across] - 1));
+}
+
+/// Height of the water in each column of cells beside the side, as if it stood on the bottom.
+template <int D>
+void FlowSides<D>::measure_levels(Side& side, const CellField<D>& water,
+                                  const CellField<D>& porosity) const {
+  const Grid<D>& grid = *grid_;
+  std::fill(side.levels.begin(), side.levels.end(), 0.0);
+  const int axis = side.options.axis;
+  if (grid.touches(axis, side.options.side) && axis != D - 1) {
+    IndexBox<D> box = grid.owned();
+    (side.options.side == 0 ? box.upper : box.lower)[axis] =
+        side.options.side == 0 ? box.lower[axis] + 1 : box.upper[axis] - 1;
+    for_each_place(grid, box, [&](std::ptrdiff_t at, const Index<D>& index) {
+      const double room = porosity.data()[at];
+      side.levels[column(side, index)] +=
+          (room > 0.0 ? water.data()[at] / room : 1.0) * grid.width(D - 1, index[D - 1]);
+    });
+  }
+  MPI_Allreduce(MPI_IN_PLACE, side.levels.data(), static_cast<int>(side.levels.size()), MPI_DOUBLE,
+                MPI_SUM, grid.comm());
+  for (double& level : side.levels) level += grid.lower()[D - 1];
+}
+
+template <int D>
+double FlowSides<D>::share_below(const Index<D>& face, double level) const {
+  const double foot = grid_->face_position(D - 1, face[D - 1]);
+  return std::clamp((level - foot) / grid_->width(D - 1, face[D - 1]), 0.0, 1.0);
+}
+
+/// Level of what comes in; sides that are level themselves take all they are given as water.
+template <int D>
+double FlowSides<D>::level_at(const Side& side, const Index<D>& face, double time) const {
+  const FlowSideOptions& options = side.options;
+  if (options.level)
+    return (*options.level)(to_point3(grid_->face_centre(options.axis, face)), time);
+  return options.axis == D - 1 ? FlowSideOptions::infinite : side.levels[column(side, face)];
+}
+
+/// Inward speed that carries the discharge through the wetted part.
+template <int D>
+double FlowSides<D>::discharge_speed(const Side& side, const FaceVector<D>& capacity,
+                                     double time) const {
+  const FlowSideOptions& options = side.options;
+  const Grid<D>& grid = *grid_;
+  const IndexBox<D> owned = grid.owned();
+  double area = 0.0;
+  for_each_face(side, [&](std::ptrdiff_t at, const Index<D>& face) {
+    for (int a = 0; a < D; ++a)
+      if (a != options.axis && (face[a] < owned.lower[a] || face[a] >= owned.upper[a])) return;
+    area += capacity[options.axis].data()[at] * share_below(face, level_at(side, face, time)) *
+            (grid.cell_volume() / grid.spacing()[options.axis]);
+  });
+  area = sum_over_ranks(grid, area);
+  const double discharge = options.value({}, time);
+  if (area > 0.0) return discharge / area;
+  if (discharge != 0.0)
+    throw DivergenceError(fmt::format(
+        "Opening \"{}\" has to carry {:.4g} m{}/s and is dry: give it a level, or less water.",
+        options.name, discharge, D == 3 ? "3" : "2"));
+  return 0.0;
+}
+
+template <int D>
+void FlowSides<D>::find_flow(const Side& side, const FaceVector<D>& capacity, double time) {
+  const FlowSideOptions& options = side.options;
+  const int axis = options.axis;
+  const double mean =
+      options.flow == SideFlow::discharge ? discharge_speed(side, capacity, time) : 0.0;
+  for_each_face(side, [&](std::ptrdiff_t at, const Index<D>& face) {
+    const double level = level_at(side, face, time);
+    const double share = options.axis == D - 1 ? 1.0 : share_below(face, level);
+    const Vec<D> centre = grid_->face_centre(axis, face);
+    inflow_[axis].data()[at] = share;
+    if (options.flow == SideFlow::level) {
+      pressure_[axis].data()[at] = density_ * gravity_ * std::max(level - centre[D - 1], 0.0);
+      return;
+    }
+    const double speed =
+        options.flow == SideFlow::discharge ? mean : options.value(to_point3(centre), time);
+    speed_[axis].data()[at] = share > 0.0 ? inwards(options) * speed : 0.0;
+  });
+}
+
+/// The motion's velocity, and the long wave that would bring the level to the motion's: what comes
+/// from inside leaves with U = -sqrt(g/d) (eta - eta_wave) (Schaeffer & Klopman 2000; in shallow
+/// water all of it).
+template <int D>
+void FlowSides<D>::find_wave(const Side& side, double time) {
+  const FlowSideOptions& options = side.options;
+  const WaveZoneOptions& wave = options.wave;
+  const Grid<D>& grid = *grid_;
+  const int axis = options.axis;
+  const double ramp = ramp_share(wave.ramp, time), sign = inwards(options);
+  for_each_face(side, [&](std::ptrdiff_t at, const Index<D>& face) {
+    const Vec<D> centre = grid.face_centre(axis, face);
+    const WavePlace place{0.0, D == 3 ? centre[1 - axis] : 0.0};
+    const double eta = ramp * side.motion->elevation(place, time);
+    const double found = side.levels[column(side, face)];
+    const double excess = found - wave.still_level - eta;
+    const double share = share_below(face, wave.still_level + eta);
+    inflow_[axis].data()[at] = share;
+    if (share == 0.0 && share_below(face, found) == 0.0) return;
+    const double z = std::min(centre[D - 1] - wave.still_level, eta);
+    const double along = ramp * side.motion->velocity(place, z, time)[0];
+    speed_[axis].data()[at] =
+        wave.current + sign * (along - std::sqrt(gravity_ / wave.depth) * excess);
+  });
+}
+
+template <int D>
+void FlowSides<D>::find(const CellField<D>& water, const CellField<D>& porosity,
+                        const FaceVector<D>& capacity, double time) {
+  speed_.fill(0.0);
+  inflow_.fill(0.0);
+  for (Side& side : sides_) {
+    measure_levels(side, water, porosity);
+    if (side.options.flow == SideFlow::wave)
+      find_wave(side, time);
+    else
+      find_flow(side, capacity, time);
+  }
+}
+
+template <int D>
+void FlowSides<D>::apply(const CellField<D>& porosity, CellField<D>& water,
+                         FaceVector<D>& velocity) const {
+  for (const Side& side : sides_) {
+    const int axis = side.options.axis;
+    const std::ptrdiff_t out = outward(side);
+    const double* speed = speed_[axis].data();
+    double* v = velocity[axis].data();
+    const bool given = side.options.flow != SideFlow::level;
+    for_each_face(side, [&](std::ptrdiff_t at, const Index<D>&) {
+      const std::ptrdiff_t behind = side.options.side == 0 ? at + out : at;
+      water.data()[behind] = inflow_[axis].data()[at] * porosity.data()[behind];
+      if (!given) return;
+      v[at] = speed[at];
+      v[at + out] = speed[at];
+    });
+  }
+}
+
+template <int D>
+void FlowSides<D>::push(const FaceVector<D>& mobility, const CellField<D>& unknown,
+                        FaceVector<D>& velocity) const {
+  for (const Side& side : sides_) {
+    if (side.options.flow != SideFlow::level) continue;
+    const int axis = side.options.axis;
+    const std::ptrdiff_t inside = side.options.side == 0 ? 0 : -grid_->stride(axis);
+    const double sign = inwards(side.options);
+    for_each_face(side, [&](std::ptrdiff_t at, const Index<D>& face) {
+      if (unknown.data()[at + inside] == 0.0) return;
+      const double gap = 0.5 * grid_->gap(axis, face[axis]);  // as the projection has it
+      velocity[axis].data()[at] +=
+          sign * mobility[axis].data()[at] * pressure_[axis].data()[at] / gap;
+    });
+  }
+}
+
+template class FlowSides<2>;
+template class FlowSides<3>;
+
+}  // namespace mudlark

@@ -1,0 +1,139 @@
+/// Sides of the domain and parts of them, and [[opening]].
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "input/sections.hpp"
+
+namespace mudlark {
+namespace {
+
+constexpr std::array<const char*, 3> axes{"x", "y", "z"};
+
+/// Place of an axis of the grid in (x, y, z).
+std::size_t coordinate(int axis, int dimension) {
+  return static_cast<std::size_t>(dimension == 2 && axis == 1 ? 2 : axis);
+}
+
+std::string side_name(int axis, int side, int dimension) {
+  return fmt::format("{}_{}", side == 0 ? "lower" : "upper", axes[coordinate(axis, dimension)]);
+}
+
+bool meet(const FlowSideOptions& one, const FlowSideOptions& other, int dimension) {
+  if (one.axis != other.axis || one.side != other.side) return false;
+  for (int axis = 0; axis < dimension; ++axis) {
+    const std::size_t a = coordinate(axis, dimension);
+    if (axis != one.axis &&
+        !(std::max(one.from[a], other.from[a]) < std::min(one.to[a], other.to[a])))
+      return false;
+  }
+  return true;
+}
+
+/// What the side must be under [domain.walls] for this flow.
+void check_wall(Section& section, const CaseOptions& options, const FlowSideOptions& side) {
+  const Wall wall =
+      options.domain
+          .walls[static_cast<std::size_t>(side.axis)][static_cast<std::size_t>(side.side)];
+  const bool open = wall == Wall::open, wants_open = side.flow == SideFlow::level;
+  if (wall != Wall::periodic && open == wants_open) return;
+  section.fail("side",
+               wants_open ? "water is held at a level by its pressure on an open wall"
+                          : "the velocity of the water is given on a closed wall",
+               fmt::format("Write {} = \"{}\" under [domain.walls].",
+                           side_name(side.axis, side.side, options.domain.dimension),
+                           wants_open ? "open" : "slip"));
+}
+
+void read_flow(Section& section, FlowSideOptions& opening) {
+  opening.flow = section.choice<SideFlow>("type", {{"velocity", SideFlow::velocity},
+                                                   {"discharge", SideFlow::discharge},
+                                                   {"level", SideFlow::level}});
+  if (opening.flow == SideFlow::velocity)
+    opening.value = section.varying("velocity", quantity::velocity, {});
+  if (opening.flow == SideFlow::discharge)
+    opening.value = section.varying(
+        "discharge",
+        section.reading().dimension == 3 ? quantity::discharge : quantity::discharge_in_plane, {});
+  if (section.has("level"))
+    opening.level = section.varying("level", quantity::length, {});
+  else if (opening.flow == SideFlow::level)
+    section.missing("level", "the height to which the water outside stands is needed");
+}
+
+}  // namespace
+
+SidePart read_side(Section& section, int dimension) {
+  std::vector<Choice<int>> sides;
+  for (int axis = 0; axis < dimension; ++axis)
+    for (int side = 0; side < 2; ++side)
+      sides.push_back({side_name(axis, side, dimension), 2 * axis + side});
+  const int chosen = section.choice<int>("side", sides);
+  return {chosen / 2, chosen % 2};
+}
+
+void read_range(Section& section, int dimension, int across, Point3& from, Point3& to) {
+  std::vector<std::size_t> along;
+  for (int axis = 0; axis < dimension; ++axis)
+    if (axis != across) along.push_back(coordinate(axis, dimension));
+  for (const auto& [key, range] : {std::pair{"from", &from}, {"to", &to}}) {
+    if (!section.has(key)) continue;
+    if (dimension == 2) {
+      (*range)[along[0]] = section.number(key, quantity::length, {});
+      continue;
+    }
+    const auto values = section.numbers(key, quantity::length, 0);
+    if (values.size() != 2 && !values.empty())
+      section.fail(key, fmt::format("two lengths are expected, along {} and {}", "xyz"[along[0]],
+                                    "xyz"[along[1]]));
+    if (values.size() == 2) (*range)[along[0]] = values[0], (*range)[along[1]] = values[1];
+  }
+  const Reading& reading = section.reading();
+  if (!reading.domain || !reading.report.empty()) return;
+  for (const std::size_t a : along) {
+    const double h = reading.spacing[a], lower = reading.domain->lower[a];
+    const double first = std::max(from[a], lower);
+    const double last = std::min(to[a], reading.domain->upper[a]);
+    const double next_centre = lower + (std::ceil((first - lower) / h - 0.5) + 0.5) * h;
+    if (!(next_centre < last))
+      return section.fail(section.has("to") ? "to" : "from",
+                          "no cell of the side has its centre between from and to",
+                          fmt::format("The side goes from {:g} to {:g} m in cells of {:g} m.",
+                                      lower, reading.domain->upper[a], h));
+  }
+}
+
+void add_flow_side(Section& section, CaseOptions& options, const FlowSideOptions& side) {
+  check_wall(section, options, side);
+  if (options.flow->gas)
+    section.fail("side", "what gas does at such a side is not known yet",
+                 "Leave out air = \"gas\" under [water], or make waves in a zone.");
+  for (const FlowSideOptions& other : options.flow->sides)
+    if (meet(side, other, options.domain.dimension))
+      section.fail("side",
+                   fmt::format("\"{}\" says already what water does on a part of it", other.name));
+  options.flow->sides.push_back(side);
+}
+
+void read_openings(Section& root, CaseOptions& options) {
+  std::vector<Section> sections = root.tables("opening");
+  if (sections.empty()) return;
+  if (!options.flow)
+    return root.reading().report.add(
+        root.place("opening"), "[[opening]] lets water through, but there is no [[water.body]]");
+  std::vector<std::string> names;
+  for (Section& section : sections) {
+    FlowSideOptions opening;
+    opening.name = read_name(section, names);
+    const std::size_t before = root.reading().report.size();
+    const SidePart part = read_side(section, options.domain.dimension);
+    opening.axis = part.axis, opening.side = part.side;
+    read_range(section, options.domain.dimension, part.axis, opening.from, opening.to);
+    read_flow(section, opening);
+    section.finish();
+    if (root.reading().report.size() == before) add_flow_side(section, options, opening);
+  }
+}
+
+}  // namespace mudlark
