@@ -478,39 +478,6 @@ void FlowSolver<D>::check_finite() const {
   throw_divergence_if_any(grid_->comm(), problem);
 }
 
-template <int D>
-WaterLedger FlowSolver<D>::ledger() const {
-  double volume = 0.0;
-  const double* w = water_.data();
-  for_each_offset(*grid_, grid_->owned(), [&](std::ptrdiff_t at) { volume += w[at]; });
-  return {initial_volume_, outflow_, sum_over_ranks(*grid_, volume) * grid_->cell_volume()};
-}
-
-template <int D>
-double FlowSolver<D>::kinetic_energy() const {
-  return mudlark::kinetic_energy(*grid_, water_, velocity_, options_.density);
-}
-template <int D>
-FastestPlace<D> FlowSolver<D>::max_speed() const {
-  Vec<D> position;
-  const double speed = fastest_water(*grid_, water_, velocity_, position);
-  return {speed, position};
-}
-template <int D>
-double FlowSolver<D>::surface_height(const Vec<D>& position) const {
-  return mudlark::surface_height(*grid_, saturation_, position);
-}
-template <int D>
-double FlowSolver<D>::front() const {
-  return water_front(*grid_, saturation_);
-}
-template <int D>
-Vec<D> FlowSolver<D>::velocity_at(const Vec<D>& position) const {
-  Vec<D> v;
-  for (int a = 0; a < D; ++a) v[a] = interpolate(*grid_, velocity_[a].data(), a, position);
-  return v;
-}
-
 template class FlowSolver<2>;
 template class FlowSolver<3>;
 
