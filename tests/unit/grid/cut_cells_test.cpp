@@ -1,4 +1,4 @@
-// ranks: 1 3
+// ranks: 1
 #include "grid/cut_cells.hpp"
 
 #include <gtest/gtest.h>
