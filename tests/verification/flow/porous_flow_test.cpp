@@ -66,8 +66,8 @@ template <int D>
 struct Ring {
   PorousGround ground;
   FlowOptions options;
-  DomainOptions domain = D == 2 ? flow_domain({8, 4, 1}, {0.4, 0.2, 1.0}, {0.0, 0.0, 0.0})
-                                : flow_domain({8, 4, 4}, {0.4, 0.2, 0.2}, {0.0, 0.0, 0.0});
+  DomainOptions domain = D == 2 ? flow_domain({12, 4, 1}, {0.4, 0.2, 1.0}, {0.0, 0.0, 0.0})
+                                : flow_domain({12, 4, 4}, {0.4, 0.2, 0.2}, {0.0, 0.0, 0.0});
 
   Ring() {
     options.bodies = {water_box({-far_away, -far_away, -far_away}, {far_away, far_away, far_away})};
