@@ -4,7 +4,7 @@
     /usr/bin/python3 cases/one_water/compare.py --run build/release/bin/mudlark [--results results/one_water]
                                                 [--picture FILE.png]
 
-- terzaghi.toml with k = 1e-2, 1e-3 and 1e-4 m/s, all with the same step: isochrones of the excess pore pressure at
+- terzaghi.toml with k = 1e-2, 1e-3 and 1e-4 m/s, the step held at 0.14 ms: isochrones of the excess pore pressure at
   T = c_v t/H^2 = 0.05 to 1; tolerance 1 % of the load (RMS over the points). With 1e-6 and 1e-9 m/s water carries the
   load; tolerance 1 %.
 - rest.toml: settlement below 1e-3 of that under the bed's own weight, water below 1e-6 m/s.
@@ -68,7 +68,7 @@ def run_all(program, results):
             f"time.output_at={times}")
     for k in TIGHT:
         run(program, "terzaghi", results / f"terzaghi_{k}", f'soil.0.hydraulic_conductivity="{k} m/s"',
-            "time.max_step=1.4e-4", "time.end=0.05")
+            "time.end=0.05")
     for case in ("rest", "slide", "collapse"):
         run(program, case, results / case)
 
@@ -110,6 +110,8 @@ def check_consolidation(results, findings, axis):
         z, p = excess(Results(results / f"terzaghi_{k}").points())
         worst = np.abs(p[z < 0.7] - 1).max() * 100
         check(findings, f"k = {k} m/s: part of the load that water does not carry", worst, 1.0)
+        steps = summary(results / f"terzaghi_{k}")
+        print(f"k = {k} m/s: steps of {steps['smallest step [s]']:.3g} to {steps['largest step [s]']:.3g} s, as the program chose them")
 
 
 def check_rest(results, findings):

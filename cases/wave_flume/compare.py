@@ -26,7 +26,6 @@ from mudlark.results import Results  # noqa: E402
 
 LENGTH, PERIOD, HEIGHT, CREST, STILL = 4.11981, 2.0, 0.1, 0.058968, 0.5
 FROM = 20.0  # [s]; whole periods until the end
-CELL = 30.9 / 450  # [m]
 TOLERANCES = {"height": 0.03, "phase": 4.0, "reflection": 0.05}
 
 
@@ -58,13 +57,14 @@ def main():
     figure, axes = plt.subplots(len(results.gauge_names), 1, figsize=(9, 9), sharex=True, constrained_layout=True)
     places, first, good = [], [], True
     case = tomllib.loads((Path(__file__).resolve().parent / "regular.toml").read_text())
+    cell = case["domain"]["upper"][0] / case["domain"]["cells"][0]
     stands = {gauge["name"]: gauge["at"][0] for gauge in case["gauge"]}
     print(f"regular wave, H = {HEIGHT} m, T = {PERIOD} s on {STILL} m; from t = {FROM:g} s on")
     for panel, name in zip(axes, results.gauge_names):
         gauge = results.gauge(name)
         level = next(iter(gauge.columns.values())) - STILL
         # A level is that of the column of cells that a gauge stands in: at its middle.
-        place = (np.floor(stands[name] / CELL + 1e-9) + 0.5) * CELL
+        place = (np.floor(stands[name] / cell + 1e-9) + 0.5) * cell
         late = gauge.time >= FROM - 1e-9
         mean, amplitudes = harmonics(gauge.time[late], level[late])
         phase = np.degrees(np.angle(amplitudes[0] * np.exp(-2j * np.pi * place / LENGTH)))

@@ -11,8 +11,6 @@ namespace {
 /// turns the smallest change of porosity into large pressures: none of that may come back to the
 /// soil as a load.
 constexpr double open_share = 0.02;
-/// Porosity that the water solver never goes below, so that squeezed cells keep an equation.
-constexpr double least_porosity = 0.05;
 
 }  // namespace
 
@@ -23,8 +21,7 @@ SurfaceCoupling<D>::SurfaceCoupling(const Grid<D>& grid, const CouplingOptions& 
       options_(options),
       halo_(grid),
       extension_(grid),
-      fraction_(grid, "solid fraction", "1"),
-      resistance_(grid, "resistance", "Pa s/m2"),
+      room_(grid),
       open_(grid, "open", "1"),
       wet_(grid, "wet", "1"),
       water_density_(flow.density),
@@ -52,22 +49,14 @@ double SurfaceCoupling<D>::load_share(double time) const {
 template <int D>
 void SurfaceCoupling<D>::map_soil_to_grid(SoilSolver<D>& soil, const PorousMedium<D>& fixed,
                                           PorousMedium<D>& medium) {
-  soil.solid_fraction(fraction_, resistance_);
-  for_each(grid_->local(), [&](const Index<D>& cell) {
-    medium.porosity[cell] = std::max(least_porosity, fixed.porosity[cell] - fraction_[cell]);
-  });
-  for (int a = 0; a < D; ++a) {
-    IndexBox<D> faces = grid_->local();
-    ++faces.lower[a];
-    for_each(faces, [&](const Index<D>& face) {
-      const double solid = 0.5 * (fraction_[face.shifted(a, -1)] + fraction_[face]);
-      const double resistance = 0.5 * (resistance_[face.shifted(a, -1)] + resistance_[face]);
+  room_.find(soil, fixed, medium);
+  for (int a = 0; a < D; ++a)
+    room_.for_each_inner_face(a, [&](const Index<D>& face) {
       medium.grain_velocity[a][face] = bed_velocity_[a][face];
-      medium.grain_flux[a][face] = solid * bed_velocity_[a][face];
-      medium.linear_drag[a][face] = fixed.linear_drag[a][face] + resistance;
+      medium.grain_flux[a][face] = room_.fraction_at(a, face) * bed_velocity_[a][face];
+      medium.linear_drag[a][face] = fixed.linear_drag[a][face] + room_.resistance_at(a, face);
       medium.quadratic_drag[a][face] = fixed.quadratic_drag[a][face];
     });
-  }
 }
 
 template <int D>
@@ -95,7 +84,7 @@ void SurfaceCoupling<D>::measure_depth(const CellField<D>& pressure) {
   for (int a = 0; a < D - 1; ++a) width = std::max(width, grid_->cells()[a] * grid_->spacing()[a]);
   if (weight > 0.0)
     for_each(grid_->owned(), [&](const Index<D>& cell) {
-      const double share = fraction_[cell] / full_fraction_;
+      const double share = room_.fraction()[cell] / full_fraction_;
       if (share > 0.1 && share < 0.9) depth = std::max(depth, pressure[cell] / weight);
     });
   water_depth_ = std::min(max_over_ranks(*grid_, depth), width / 3.14159265358979323846);
@@ -105,7 +94,7 @@ template <int D>
 void SurfaceCoupling<D>::extended_pressure(const FlowSolver<D>& flow, const SoilSolver<D>& soil,
                                            double share, CellField<D>& pressure) {
   for_each(grid_->owned(), [&](const Index<D>& cell) {
-    const bool open = fraction_[cell] < open_share * full_fraction_;
+    const bool open = room_.fraction()[cell] < open_share * full_fraction_;
     const bool wet = flow.saturation()[cell] >= 0.5;
     open_[cell] = open ? 1.0 : 0.0;
     wet_[cell] = open && wet ? share : 0.0;

@@ -3,6 +3,7 @@
 /// sees both.
 #include "coupling/options.hpp"
 #include "coupling/pressure_extension.hpp"
+#include "coupling/soil_in_water.hpp"
 #include "flow/flow_solver.hpp"
 #include "flow/porous_medium.hpp"
 #include "soil/fluid_load.hpp"
@@ -66,8 +67,7 @@ class SurfaceCoupling {
   CouplingOptions options_;
   Halo<D> halo_;
   PressureExtension<D> extension_;
-  CellField<D> fraction_;    ///< grain volume per cell volume phi_c [-]
-  CellField<D> resistance_;  ///< mu / kappa, fading at the rim [Pa s/m2]
+  SoilInWater<D> room_;
   CellField<D> open_, wet_;
   double water_density_;        ///< [kg/m3]
   double full_fraction_;        ///< solid fraction of undisturbed soil [-]

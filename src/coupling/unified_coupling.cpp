@@ -1,26 +1,22 @@
 #include "coupling/unified_coupling.hpp"
 
-#include <algorithm>
+#include <array>
 #include <cstdlib>
 
 namespace mudlark {
 namespace {
 
-/// Porosity that the water never goes below, so that squeezed cells keep an equation.
-constexpr double least_porosity = 0.05;
 /// Faces with fewer grains than this share of a cell carry none: their velocity is round-off.
 constexpr double least_share = 1e-9;
 
 }  // namespace
 
 template <int D>
-UnifiedCoupling<D>::UnifiedCoupling(const Grid<D>& grid, const FlowSolver<D>&,
-                                    const SoilSolver<D>& soil)
+UnifiedCoupling<D>::UnifiedCoupling(const Grid<D>& grid, const SoilSolver<D>& soil)
     : grid_(&grid),
       halo_(grid),
       grain_density_(soil.options().bodies.front().grain_density),
-      fraction_(grid, "solid fraction", "1"),
-      resistance_(grid, "resistance", "Pa s/m2"),
+      room_(grid),
       pressure_(grid, "pressure", "Pa"),
       grains_(grid),
       change_(grid, "grain change", "m/s"),
@@ -29,17 +25,11 @@ UnifiedCoupling<D>::UnifiedCoupling(const Grid<D>& grid, const FlowSolver<D>&,
 template <int D>
 void UnifiedCoupling<D>::map_soil_to_grid(SoilSolver<D>& soil, const PorousMedium<D>& fixed,
                                           PorousMedium<D>& medium) {
-  soil.solid_fraction(fraction_, resistance_);
-  for_each(grid_->local(), [&](const Index<D>& cell) {
-    medium.porosity[cell] = std::max(least_porosity, fixed.porosity[cell] - fraction_[cell]);
-  });
-  for (int a = 0; a < D; ++a) {
-    IndexBox<D> faces = grid_->local();
-    ++faces.lower[a];
-    for_each(faces, [&](const Index<D>& face) {
-      grains_.resistance[a][face] = 0.5 * (resistance_[face.shifted(a, -1)] + resistance_[face]);
+  room_.find(soil, fixed, medium);
+  for (int a = 0; a < D; ++a)
+    room_.for_each_inner_face(a, [&](const Index<D>& face) {
+      grains_.resistance[a][face] = room_.resistance_at(a, face);
     });
-  }
 }
 
 template <int D>
@@ -68,8 +58,11 @@ void UnifiedCoupling<D>::load_grains(SoilSolver<D>& soil, double dt) {
     });
     before_[a].copy_values_from(grains_.velocity[a]);
   }
+  std::array<double*, std::size_t{4} * D> fields{};
+  std::size_t number = 0;
   for (FaceVector<D>* field : {&grains_.share, &grains_.inertia, &grains_.force, &grains_.velocity})
-    halo_.exchange(*field);
+    for (int a = 0; a < D; ++a) fields[number++] = (*field)[a].data();
+  halo_.exchange(fields);
 }
 
 template <int D>

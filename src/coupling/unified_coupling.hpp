@@ -9,6 +9,7 @@
 ///   4. the flow moves its water, and solves the momentum of water and grains with the pressure
 ///      that makes the flux of the two together free of divergence (flow/moving_grains.hpp);
 ///   5. the grains' velocities wait for the next step (`follow_water`).
+#include "coupling/soil_in_water.hpp"
 #include "flow/flow_solver.hpp"
 #include "grid/halo.hpp"
 #include "soil/soil_solver.hpp"
@@ -18,7 +19,7 @@ namespace mudlark {
 template <int D>
 class UnifiedCoupling {
  public:
-  UnifiedCoupling(const Grid<D>& grid, const FlowSolver<D>& flow, const SoilSolver<D>& soil);
+  UnifiedCoupling(const Grid<D>& grid, const SoilSolver<D>& soil);
 
   /// Velocities of the grains at the start, after flow and soil have theirs. Collective.
   void initialise(const FlowSolver<D>& flow, SoilSolver<D>& soil);
@@ -42,7 +43,8 @@ class UnifiedCoupling {
   const Grid<D>* grid_;
   Halo<D> halo_;
   double grain_density_;
-  CellField<D> fraction_, resistance_, pressure_;
+  SoilInWater<D> room_;
+  CellField<D> pressure_;
   MovingGrains<D> grains_;
   FaceVector<D> change_;  ///< of the grains' velocity over the last step [m/s]
   FaceVector<D> before_;  ///< that velocity before it [m/s]

@@ -131,16 +131,22 @@ double fastest_water(const Grid<D>& grid, const CellField<D>& water, const FaceV
 }
 
 template <int D>
-double surface_height(const Grid<D>& grid, const CellField<D>& saturation, const Vec<D>& position) {
-  constexpr int up = D - 1;
+IndexBox<D> own_column(const Grid<D>& grid, const Vec<D>& position) {
   const Index<D> cell = grid.cell_at(position);
   IndexBox<D> column = grid.owned();
-  for (int a = 0; a < up; ++a) {
+  for (int a = 0; a < D - 1; ++a) {
     // A position on the domain's upper end belongs to the last cell.
     const int place = std::clamp(cell[a], 0, grid.cells()[a] - 1);
     column.lower[a] = std::max(column.lower[a], place);
     column.upper[a] = std::min(column.upper[a], place + 1);
   }
+  return column;
+}
+
+template <int D>
+double surface_height(const Grid<D>& grid, const CellField<D>& saturation, const Vec<D>& position) {
+  constexpr int up = D - 1;
+  const IndexBox<D> column = own_column(grid, position);
   double height = grid.lower()[up];
   for_each(column, [&](const Index<D>& c) {
     if (saturation[c] >= 0.5) height = std::max(height, end_of_water(grid, saturation, c, up));
@@ -207,6 +213,8 @@ template double kinetic_energy(const Grid<2>&, const CellField<2>&, const FaceVe
 template double kinetic_energy(const Grid<3>&, const CellField<3>&, const FaceVector<3>&, double);
 template double fastest_water(const Grid<2>&, const CellField<2>&, const FaceVector<2>&, Vec<2>&);
 template double fastest_water(const Grid<3>&, const CellField<3>&, const FaceVector<3>&, Vec<3>&);
+template IndexBox<2> own_column(const Grid<2>&, const Vec<2>&);
+template IndexBox<3> own_column(const Grid<3>&, const Vec<3>&);
 template double surface_height(const Grid<2>&, const CellField<2>&, const Vec<2>&);
 template double surface_height(const Grid<3>&, const CellField<3>&, const Vec<3>&);
 template double water_front(const Grid<2>&, const CellField<2>&);

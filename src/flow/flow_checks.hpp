@@ -36,6 +36,10 @@ double kinetic_energy(const Grid<D>& grid, const CellField<D>& water, const Face
 template <int D>
 double fastest_water(const Grid<D>& grid, const CellField<D>& water, const FaceVector<D>& velocity,
                      Vec<D>& position);
+/// This rank's cells of the column that holds a position; the position on the domain's upper end
+/// belongs to the last column.
+template <int D>
+IndexBox<D> own_column(const Grid<D>& grid, const Vec<D>& position);
 /// Top of the uppermost cell with alpha >= 1/2 in the column, corrected by what that cell lacks and
 /// the cell above holds.
 template <int D>

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "flow/flow_checks.hpp"
 #include "numerics/loops.hpp"
 #include "numerics/plic.hpp"
 
@@ -52,14 +53,7 @@ template <int D>
 std::vector<double> surfaces_over(const Grid<D>& grid, const CellField<D>& saturation,
                                   const Vec<D>& position) {
   constexpr int up = D - 1;
-  const Index<D> cell = grid.cell_at(position);
-  IndexBox<D> column = grid.owned();
-  for (int a = 0; a < up; ++a) {
-    // A position on the domain's upper end belongs to the last cell.
-    const int place = std::clamp(cell[a], 0, grid.cells()[a] - 1);
-    column.lower[a] = std::max(column.lower[a], place);
-    column.upper[a] = std::min(column.upper[a], place + 1);
-  }
+  const IndexBox<D> column = own_column(grid, position);
   const auto height = static_cast<std::size_t>(grid.cells()[up]);
   std::vector<double> mine(height, 0.0), alpha(height, 0.0);
   for_each(column, [&](const Index<D>& c) {
@@ -97,7 +91,9 @@ ColumnPiece read_piece(const Grid<D>& grid, const CellField<D>& saturation,
   ColumnPiece piece{std::numeric_limits<double>::quiet_NaN(), 0.0, 1.0};
   if (grid.owned().lower[up] == 0) piece.ground = grid.lower()[up];
   for (cell[up] = grid.owned().lower[up]; cell[up] < grid.owned().upper[up]; ++cell[up]) {
-    if (porosity[cell] < 1.0 - 1e-6)
+    double size = 1.0;  // of the cell over that of a mean one, as its capacity counts
+    for (int a = 0; a < D; ++a) size *= grid.width(a, cell[a]) / grid.spacing()[a];
+    if (porosity[cell] < (1.0 - 1e-6) * size)
       piece = {grid.face_position(up, cell[up] + 1), 0.0, 1.0};
     else if (piece.through > 0.0) {
       const double alpha = std::clamp(saturation[cell], 0.0, 1.0);

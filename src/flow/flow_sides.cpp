@@ -135,9 +135,11 @@ double FlowSides<D>::discharge_speed(const Side& side, const FaceVector<D>& capa
   const double discharge = options.value({}, time);
   if (area > 0.0) return discharge / area;
   if (discharge != 0.0)
-    throw DivergenceError(fmt::format(
-        "Opening \"{}\" has to carry {:.4g} m{}/s and is dry: give it a level, or less water.",
-        options.name, discharge, D == 3 ? "3" : "2"));
+    throw DivergenceError(
+        fmt::format("Opening \"{}\" has to carry {:.4g} m{}/s and none of it is open and wet: give "
+                    "it a level, or place it "
+                    "where the water stands.",
+                    options.name, discharge, D == 3 ? "3" : "2"));
   return 0.0;
 }
 
@@ -194,7 +196,9 @@ void FlowSides<D>::find(const CellField<D>& water, const CellField<D>& porosity,
   speed_.fill(0.0);
   inflow_.fill(0.0);
   for (Side& side : sides_) {
-    measure_levels(side, water, porosity);
+    const bool asks =
+        side.options.flow == SideFlow::wave || (!side.options.level && side.options.axis != D - 1);
+    if (asks) measure_levels(side, water, porosity);
     if (side.options.flow == SideFlow::wave)
       find_wave(side, time);
     else

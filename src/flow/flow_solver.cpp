@@ -62,7 +62,8 @@ FlowSolver<D>::FlowSolver(const Grid<D>& grid, const FlowOptions& options)
       flux_(grid, "flux", "m/s"),
       carried_(grid, "carried water", "1"),
       mobility_(grid, "mobility", "m2 s/kg"),
-      wall_friction_(grid, "wall friction", "Pa s/m2") {
+      wall_friction_(grid, "wall friction", "Pa s/m2"),
+      body_friction_(grid, "body friction", "Pa s/m2") {
   if (options.gas) gas_.emplace(grid, options);
   if (options.turbulence.model != TurbulenceModel::none) turbulence_.emplace(grid, options);
 }
@@ -165,7 +166,7 @@ void FlowSolver<D>::find_unknowns() {
   const CellField<D>* seen = &saturation_;
   if (!solids_.walls().empty()) {
     seen_.copy_values_from(saturation_);
-    solids_.walls().extend_saturation(seen_);
+    solids_.walls().extend_saturation(porosity_, seen_);
     seen = &seen_;
   }
   projection_.find_surface(water_, porosity_, capacity_, *seen, interface_);
@@ -287,6 +288,7 @@ void FlowSolver<D>::transport(const PorousMedium<D>& medium, double dt) {
   carried_.copy_values_from(interface_.water_flux());
   ghosts_.exchange(carried_);
   solids_.walls().extend_velocity(velocity_);
+  hold_sides();
   if (!options_.advection) return;
   if (gas_)
     gas_->move_momentum(water_, porosity_, flux_, carried_, dt, momentum_, velocity_);
@@ -305,13 +307,18 @@ void FlowSolver<D>::advance(const PorousMedium<D>& medium, double dt, MovingGrai
   find_sides(time_ + dt);
   find_unknowns();
   if (options_.wall_law != WallLaw::resolved)
-    find_wall_friction(*grid_, options_, water_, velocity_, wall_friction_);
+    find_wall_friction(*grid_, options_, saturation_, velocity_, wall_friction_);
   if (solids_.no_slip()) {
     if (options_.wall_law == WallLaw::resolved) wall_friction_.fill(0.0);
-    add_body_friction(*grid_, solids_, porosity_, options_.viscosity, wall_friction_);
-    ghosts_.exchange(wall_friction_);
+    find_body_friction(*grid_, solids_, porosity_, options_.viscosity, body_friction_);
+    ghosts_.add_to_owners(body_friction_);
+    for (int a = 0; a < D; ++a)
+      for_each_offset(*grid_, bounding_faces(*grid_, a), [&](std::ptrdiff_t at) {
+        wall_friction_[a].data()[at] += body_friction_[a].data()[at];
+      });
   }
   solids_.walls().extend_velocity(velocity_);
+  hold_sides();
   if (turbulence_) turbulence_->advance(medium, saturation_, velocity_, dt);
   predictor_.advance(medium, porosity_, capacity_, wall_friction_, time_, dt,
                      gas_ ? &gas_->mixture() : nullptr,

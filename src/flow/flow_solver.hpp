@@ -162,7 +162,7 @@ class FlowSolver {
   CellField<D> seen_;       ///< saturation, continued behind the walls of bodies
   CellField<D> loose_;      ///< 1 in cells whose porosity was not transported
   FaceVector<D> capacity_;  ///< theta_f: what a face lets through of a unit velocity [-]
-  FaceVector<D> flux_, carried_, mobility_, wall_friction_;
+  FaceVector<D> flux_, carried_, mobility_, wall_friction_, body_friction_;
   double initial_volume_ = 0.0, outflow_ = 0.0, time_ = 0.0;
   std::int64_t step_ = 0;
   SolveReport last_solve_;

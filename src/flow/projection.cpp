@@ -294,9 +294,10 @@ void Projection<D>::fix_constant(CellField<D>& pressure) {
       return;
     }
   }
-  double cells = 1.0, missing = 0.0;
-  for (int a = 0; a < D; ++a) cells *= grid.cells()[a];
+  double cells = 0.0, missing = 0.0;
   for_each(grid.owned(), [&](const Index<D>& cell) {
+    if (unknown_[cell] == 0.0) return;  // all body
+    cells += 1.0;
     const Vec<D> centre = grid.cell_centre(cell);
     for (int a = 0; a < D; ++a) {
       if (grid.periodic(a)) continue;
@@ -305,8 +306,11 @@ void Projection<D>::fix_constant(CellField<D>& pressure) {
     }
     missing -= pressure[cell];
   });
-  const double shift = sum_over_ranks(grid, missing) / cells;
-  for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) { p[at] += shift; });
+  const double shift = sum_over_ranks(grid, missing) / sum_over_ranks(grid, cells);
+  const double* unknown = unknown_.data();
+  for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) {
+    if (unknown[at] > 0.0) p[at] += shift;
+  });
   ghosts_.update(pressure);
 }
 

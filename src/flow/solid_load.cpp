@@ -78,8 +78,9 @@ double stress_per_speed(const Grid<D>& grid, const CutCell<D>& cut, double visco
 }  // namespace
 
 template <int D>
-void add_body_friction(const Grid<D>& grid, const SolidBodies<D>& solids,
-                       const CellField<D>& capacity, double viscosity, FaceVector<D>& resistance) {
+void find_body_friction(const Grid<D>& grid, const SolidBodies<D>& solids,
+                        const CellField<D>& capacity, double viscosity, FaceVector<D>& resistance) {
+  resistance.fill(0.0);
   for (const CutCell<D>& cut : solids.surface()) {
     if (!solids.options(cut.body).no_slip) continue;
     const double drag = stress_per_speed(grid, cut, viscosity) * norm(cut.area);
@@ -131,12 +132,12 @@ template class WallPressure<3>;
 template SolidLoad load_on(const Grid<2>&, const SolidBodies<2>&, std::size_t,
                            const std::optional<BoxShape>&, const WallPressure<2>&,
                            const FaceVector<2>&, double);
-template void add_body_friction(const Grid<2>&, const SolidBodies<2>&, const CellField<2>&, double,
-                                FaceVector<2>&);
+template void find_body_friction(const Grid<2>&, const SolidBodies<2>&, const CellField<2>&, double,
+                                 FaceVector<2>&);
 template SolidLoad load_on(const Grid<3>&, const SolidBodies<3>&, std::size_t,
                            const std::optional<BoxShape>&, const WallPressure<3>&,
                            const FaceVector<3>&, double);
-template void add_body_friction(const Grid<3>&, const SolidBodies<3>&, const CellField<3>&, double,
-                                FaceVector<3>&);
+template void find_body_friction(const Grid<3>&, const SolidBodies<3>&, const CellField<3>&, double,
+                                 FaceVector<3>&);
 
 }  // namespace mudlark

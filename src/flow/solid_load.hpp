@@ -56,8 +56,8 @@ SolidLoad load_on(const Grid<D>& grid, const SolidBodies<D>& solids, std::size_t
 /// Adds the resistance of no-slip bodies per volume of water [Pa s/m2]: a linear profile between
 /// the wall and the centre of the cut cell. `capacity` of cells.
 template <int D>
-void add_body_friction(const Grid<D>& grid, const SolidBodies<D>& solids,
-                       const CellField<D>& capacity, double viscosity, FaceVector<D>& resistance);
+void find_body_friction(const Grid<D>& grid, const SolidBodies<D>& solids,
+                        const CellField<D>& capacity, double viscosity, FaceVector<D>& resistance);
 
 extern template class WallPressure<2>;
 extern template class WallPressure<3>;

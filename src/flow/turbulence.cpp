@@ -203,11 +203,11 @@ void Turbulence<D>::react(const PorousMedium<D>& medium, const CellField<D>& alp
     const double at_wall = wall_production_.data()[at];
     double production = at_wall >= 0.0 ? at_wall : nu_t[at] * strain2_.data()[at];
     double of_epsilon = C::c1 * production * epsilon / k;
-    if (n[at] < 1.0 && grain[at] > 0.0) {  // Nakayama & Kuwahara (1999)
+    if (n[at] < 1.0 && grain[at] > 0.0) {  // Nakayama & Kuwahara (1999), v between the grains
       const double u2 = speed2(velocity, at, -1);
-      const double k_in_pores = 3.7 * (1.0 - n[at]) / std::sqrt(n[at]) * u2;
+      const double k_in_pores = 3.7 * (1.0 - n[at]) * std::pow(n[at], 1.5) * u2;
       const double epsilon_in_pores =
-          39.0 * std::pow(1.0 - n[at], 2.5) / n[at] * u2 * std::sqrt(u2) / grain[at];
+          39.0 * std::pow(1.0 - n[at], 2.5) * squared(n[at]) * u2 * std::sqrt(u2) / grain[at];
       production += epsilon_in_pores;
       of_epsilon += C::c2 * squared(epsilon_in_pores) / std::max(k_in_pores, least_k);
     }
@@ -219,8 +219,6 @@ void Turbulence<D>::react(const PorousMedium<D>& medium, const CellField<D>& alp
           std::pow(C::c_mu, 0.75) * std::pow(k, 1.5) / (von_karman * wall_distance_.data()[at]),
           least_epsilon);
   });
-  ghosts_.update(k_);
-  ghosts_.update(epsilon_);
 }
 
 /// 2 S_ij S_ij and 2 Omega_ij Omega_ij at cell centres; derivatives across are means over the two
@@ -280,8 +278,10 @@ template <int D>
 void Turbulence<D>::update_ghosts() {
   const Grid<D>& grid = *grid_;
   ghosts_.update(eddy_);
-  ghosts_.update(k_);
-  ghosts_.update(epsilon_);
+  if (options_.model == TurbulenceModel::k_epsilon) {
+    ghosts_.update(k_);
+    ghosts_.update(epsilon_);
+  }
   for (int axis = 0; axis < D; ++axis)
     for (int side = 0; side < 2; ++side) {
       if (!grid.touches(axis, side) || grid.wall(axis, side) != Wall::no_slip) continue;

@@ -15,7 +15,7 @@ constexpr double thinnest_film = 0.05;
 /// Friction of one wall on one component along it.
 template <int D>
 void add_friction(const Grid<D>& grid, const FlowOptions& options, int axis, int side,
-                  int component, const CellField<D>& water, const FaceVector<D>& velocity,
+                  int component, const CellField<D>& saturation, const FaceVector<D>& velocity,
                   FaceVector<D>& resistance) {
   const double h = grid.width(axis, side == 0 ? 0 : grid.cells()[axis] - 1),
                nu = options.viscosity / options.density;
@@ -24,7 +24,7 @@ void add_friction(const Grid<D>& grid, const FlowOptions& options, int axis, int
   IndexBox<D> row = bounding_faces(grid, component);
   row.lower[axis] = side == 0 ? 0 : grid.cells()[axis] - 1;
   row.upper[axis] = row.lower[axis] + 1;
-  const double* w = water.data();
+  const double* w = saturation.data();
   const double* v = velocity[component].data();
   double* out = resistance[component].data();
   for_each_offset(grid, row, [&](std::ptrdiff_t at) {
@@ -82,15 +82,16 @@ double log_law_stress(double speed, double distance, double density, double visc
 }
 
 template <int D>
-void find_wall_friction(const Grid<D>& grid, const FlowOptions& options, const CellField<D>& water,
-                        const FaceVector<D>& velocity, FaceVector<D>& resistance) {
+void find_wall_friction(const Grid<D>& grid, const FlowOptions& options,
+                        const CellField<D>& saturation, const FaceVector<D>& velocity,
+                        FaceVector<D>& resistance) {
   resistance.fill(0.0);
   for (int axis = 0; axis < D; ++axis)
     for (int side = 0; side < 2; ++side) {
       if (!grid.touches(axis, side) || grid.wall(axis, side) != Wall::no_slip) continue;
       for (int component = 0; component < D; ++component)
         if (component != axis)
-          add_friction(grid, options, axis, side, component, water, velocity, resistance);
+          add_friction(grid, options, axis, side, component, saturation, velocity, resistance);
     }
 }
 

@@ -22,7 +22,8 @@ double log_law_stress(double speed, double distance, double density, double visc
 /// resolves; zero elsewhere. Where the water is a film thinner than a cell, the film carries the
 /// stress. `water` is the water volume per cell volume [-]; ghosts of the inputs valid.
 template <int D>
-void find_wall_friction(const Grid<D>& grid, const FlowOptions& options, const CellField<D>& water,
-                        const FaceVector<D>& velocity, FaceVector<D>& resistance);
+void find_wall_friction(const Grid<D>& grid, const FlowOptions& options,
+                        const CellField<D>& saturation, const FaceVector<D>& velocity,
+                        FaceVector<D>& resistance);
 
 }  // namespace mudlark

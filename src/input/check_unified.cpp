@@ -42,6 +42,7 @@ std::vector<std::string> excluded(const CaseOptions& options) {
   };
   no(takes_implicit_steps(soil), "soil_solver.method = \"implicit\"");
   no(options.flow && options.flow->gas, "water.air = \"gas\"");
+  no(options.flow && !options.flow->sides.empty(), "[[opening]], or a [[wave]] at a side,");
   no(!soil.solids.empty(), "[[solid]]");
   no(!soil.boundaries.empty(), "[[boundary]]");
   no(!soil.stages.empty(), "[[stage]]");
@@ -52,6 +53,8 @@ std::vector<std::string> excluded(const CaseOptions& options) {
   no(soil.load_form != LoadForm::virtual_stress, "soil_solver.load_form = \"facets\"");
   no(soil.kernel == Kernel::linear, "soil_solver.kernel = \"linear\"");
   no(soil.body_acceleration.has_value(), "soil_solver.body_acceleration");
+  no(options.flow && options.flow->body_acceleration.has_value(),
+     "flow_solver.body_acceleration, which the grains would not feel,");
   const auto dimension = static_cast<std::size_t>(options.domain.dimension);
   for (std::size_t a = 0; a < dimension; ++a)
     for (std::size_t side = 0; side < 2; ++side) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 #include "base/errors.hpp"
 #include "input/text_columns.hpp"
@@ -13,44 +12,6 @@ namespace mudlark {
 namespace {
 
 constexpr std::size_t most_heights = 100'000'000;
-
-/// Reads a file line by line and says where something is wrong.
-class Lines {
- public:
-  explicit Lines(const std::filesystem::path& file) : file_(file), stream_(file) {}
-
-  /// The next line that holds something; false at the end.
-  bool next(std::string_view& text) {
-    while (std::getline(stream_, line_)) {
-      ++number_;
-      text = line_;
-      if (number_ == 1 && text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
-      text = trimmed(text);
-      if (!text.empty() && text.front() != '#') return true;
-    }
-    if (!stream_.eof()) fail_in_file("it cannot be read to its end");
-    return false;
-  }
-  int number() const { return number_; }
-  [[noreturn]] void fail(const std::string& problem) const { fail_at(number_, problem); }
-  [[noreturn]] void fail_at(int line, const std::string& problem) const {
-    throw InputError(fmt::format("{}:{}: {}", file_.string(), line, problem));
-  }
-  [[noreturn]] void fail_in_file(const std::string& problem) const {
-    throw InputError(fmt::format("{}: {}", file_.string(), problem));
-  }
-  double number_in(std::string_view text) const {
-    if (const auto value = number_of(text)) return *value;
-    fail(fmt::format("\"{}\" is not a number",
-                     text.substr(0, std::min<std::size_t>(text.size(), 30))));
-  }
-
- private:
-  const std::filesystem::path& file_;
-  std::ifstream stream_;
-  std::string line_;
-  int number_ = 0;
-};
 
 bool is_missing(std::string_view text) { return text.empty() || text == "nan" || text == "NaN"; }
 
@@ -62,7 +23,7 @@ struct Rows {
 };
 
 /// `axes`: which of x, y, z the columns are.
-Rows read_rows(Lines& lines, std::string_view first, const std::vector<std::size_t>& axes) {
+Rows read_rows(TextLines& lines, std::string_view first, const std::vector<std::size_t>& axes) {
   constexpr std::array<std::string_view, 3> names{"x", "y", "z"};
   Rows rows;
   std::array<std::size_t, 3> column{};
@@ -97,7 +58,7 @@ Rows read_rows(Lines& lines, std::string_view first, const std::vector<std::size
   return rows;
 }
 
-HeightFile read_line(Lines& lines, std::string_view first) {
+HeightFile read_line(TextLines& lines, std::string_view first) {
   Rows rows = read_rows(lines, first, {0, 2});
   for (std::size_t i = 1; i < rows.lines.size(); ++i)
     if (!(rows.values[0][i] > rows.values[0][i - 1]))
@@ -124,7 +85,7 @@ std::size_t index_in(const std::vector<double>& places, double value) {
   return after == places.end() || value - places[i - 1] < places[i] - value ? i - 1 : i;
 }
 
-HeightFile read_lattice(Lines& lines, std::string_view first) {
+HeightFile read_lattice(TextLines& lines, std::string_view first) {
   const Rows rows = read_rows(lines, first, {0, 1, 2});
   HeightFile file{distinct(rows.values[0]), distinct(rows.values[1]), {}, rows.units};
   const std::size_t columns = file.x.size(), count = columns * file.y.size();
@@ -155,7 +116,7 @@ struct GridHeader {
   double missing = -9999.0;
 
   /// False when the line does not belong to the header.
-  bool take(const Lines& lines, const std::vector<std::string_view>& words) {
+  bool take(const TextLines& lines, const std::vector<std::string_view>& words) {
     if (words.size() != 2 || number_of(words[0])) return false;
     std::string key(words[0]);
     std::transform(key.begin(), key.end(), key.begin(),
@@ -180,7 +141,7 @@ struct GridHeader {
                       words[0]));
     return true;
   }
-  void check(const Lines& lines) const {
+  void check(const TextLines& lines) const {
     const auto whole = [](double count) { return count >= 2.0 && count == std::floor(count); };
     if (!whole(columns) || !whole(rows))
       lines.fail("before the heights the header must give ncols and nrows, at least 2");
@@ -194,7 +155,7 @@ struct GridHeader {
 };
 
 /// Rows run from north to south; heights stand in the middle of their cells.
-HeightFile read_esri(Lines& lines, std::string_view text) {
+HeightFile read_esri(TextLines& lines, std::string_view text) {
   GridHeader header;
   bool more = true;
   while (more && header.take(lines, fields_of(text, ' '))) more = lines.next(text);
@@ -229,7 +190,7 @@ HeightFile read_esri(Lines& lines, std::string_view text) {
 }  // namespace
 
 HeightFile read_height_file(const std::filesystem::path& path, bool line) {
-  Lines lines(path);
+  TextLines lines(path);
   std::string_view first;
   if (!lines.next(first)) lines.fail_in_file("it is empty");
   const std::string_view word = fields_of(first, ' ').front();

@@ -116,22 +116,6 @@ void read_water(Section& section, const DomainOptions& domain, SoilBoundary& bou
                                                      : WaterSide::pressure;
 }
 
-/// Place of an axis of the grid in (x, y, z).
-std::size_t coordinate(int axis, int dimension) {
-  return static_cast<std::size_t>(dimension == 2 && axis == 1 ? 2 : axis);
-}
-
-bool overlap(const SoilBoundary& one, const SoilBoundary& other, int dimension) {
-  if (one.axis != other.axis || one.side != other.side) return false;
-  for (int axis = 0; axis < dimension; ++axis) {
-    const std::size_t a = coordinate(axis, dimension);
-    if (axis != one.axis &&
-        !(std::max(one.from[a], other.from[a]) < std::min(one.to[a], other.to[a])))
-      return false;
-  }
-  return true;
-}
-
 bool lets_grains_through(GrainSide kind) {
   return kind == GrainSide::open || kind == GrainSide::absorbing;
 }
@@ -153,7 +137,7 @@ void check_together(Section& section, const CaseOptions& options, const SoilBoun
                  "pressure, an absorbing one seals it in",
                  "Write grains = \"slip\" or \"fixed\".");
   for (const SoilBoundary& other : options.soil->boundaries) {
-    if (!overlap(boundary, other, domain.dimension)) continue;
+    if (!parts_meet(boundary, other, domain.dimension)) continue;
     if (boundary.for_grains && other.for_grains)
       section.fail(
           "grains",

@@ -11,6 +11,8 @@ namespace {
 
 /// More than that and the second order of the scheme is lost.
 constexpr double largest_growth = 1.3;
+/// Fine cells that one region may have along its axis: more fit into no memory.
+constexpr double most_cells = 1e6;
 
 struct Region {
   Section section;
@@ -44,6 +46,12 @@ Region read_region(Section section, const DomainOptions& domain) {
                            .lower_included = false,
                            .reason = fmt::format("cells elsewhere are {:.4g} m", coarse),
                            .cure = "A refinement has smaller cells."});
+  if ((r.to - r.from) / r.size > most_cells)
+    section.fail("cell_size",
+                 fmt::format("that makes {:.3g} cells along the region, at most {:.0e} "
+                             "are possible",
+                             (r.to - r.from) / r.size, most_cells),
+                 "Write a larger size or a shorter region.");
   r.growth = section.number("growth", quantity::number,
                             {.lower = 1.0,
                              .upper = largest_growth,

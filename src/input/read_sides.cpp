@@ -11,24 +11,8 @@ namespace {
 
 constexpr std::array<const char*, 3> axes{"x", "y", "z"};
 
-/// Place of an axis of the grid in (x, y, z).
-std::size_t coordinate(int axis, int dimension) {
-  return static_cast<std::size_t>(dimension == 2 && axis == 1 ? 2 : axis);
-}
-
 std::string side_name(int axis, int side, int dimension) {
   return fmt::format("{}_{}", side == 0 ? "lower" : "upper", axes[coordinate(axis, dimension)]);
-}
-
-bool meet(const FlowSideOptions& one, const FlowSideOptions& other, int dimension) {
-  if (one.axis != other.axis || one.side != other.side) return false;
-  for (int axis = 0; axis < dimension; ++axis) {
-    const std::size_t a = coordinate(axis, dimension);
-    if (axis != one.axis &&
-        !(std::max(one.from[a], other.from[a]) < std::min(one.to[a], other.to[a])))
-      return false;
-  }
-  return true;
 }
 
 /// What the side must be under [domain.walls] for this flow.
@@ -110,7 +94,7 @@ void add_flow_side(Section& section, CaseOptions& options, const FlowSideOptions
     section.fail("side", "what gas does at such a side is not known yet",
                  "Leave out air = \"gas\" under [water], or make waves in a zone.");
   for (const FlowSideOptions& other : options.flow->sides)
-    if (meet(side, other, options.domain.dimension))
+    if (parts_meet(side, other, options.domain.dimension))
       section.fail("side",
                    fmt::format("\"{}\" says already what water does on a part of it", other.name));
   options.flow->sides.push_back(side);

@@ -184,7 +184,8 @@ SolidOptions read_solid(Section& section, bool in_water, std::vector<std::string
 }
 
 /// The same body as the water sees it.
-FlowSolid read_flow_solid(Section& section, const SolidOptions& solid) {
+FlowSolid read_flow_solid(Section& section, const SolidOptions& solid, const FlowOptions& flow) {
+  const bool moves_as_given = std::holds_alternative<PrescribedSolid>(solid.motion);
   FlowSolid body{solid.name, solid.shape, solid.centre, {}, false};
   if (const auto* given = std::get_if<PrescribedSolid>(&solid.motion)) body.motion = *given;
   if (std::holds_alternative<FreeSolid>(solid.motion))
@@ -192,6 +193,9 @@ FlowSolid read_flow_solid(Section& section, const SolidOptions& solid) {
                  "a body in flowing water is fixed or moves as given; the water cannot "
                  "move it yet",
                  "Write \"fixed\" or { type = \"prescribed\", ... }.");
+  if (moves_as_given && flow.porous.size() > 0)
+    section.fail("motion", "a body that moves in a case with [[porous]] ground is not there yet",
+                 "Write \"fixed\", or leave the ground out.");
   for (const char* key : {"friction_coefficient", "adhesion"})
     section.forbid(key, "it is for soil; `wall` says how water passes the body");
   body.no_slip = section.choice<bool>("wall", {{"slip", false}, {"no-slip", true}}, false);
@@ -229,7 +233,7 @@ void read_solids(Section& root, CaseOptions& options) {
     const bool in_water = options.flow && !options.soil;
     SolidOptions solid = read_solid(section, in_water, names);
     if (in_water)
-      options.flow->solids.push_back(read_flow_solid(section, solid));
+      options.flow->solids.push_back(read_flow_solid(section, solid, *options.flow));
     else
       section.forbid("wall", "it is for bodies in flowing water");
     section.finish();

@@ -94,7 +94,16 @@ void read_zone(Section& wave, WaveZoneOptions& zone) {
 std::optional<FlowSideOptions> read_wave_side(Section& wave, const DomainOptions& domain,
                                               WaveZoneOptions& zone) {
   if (!wave.has("side")) {
+    if (!wave.has("zone")) {
+      wave.missing("zone", "write side = \"lower_x\", or zone = { outer = .., inner = .. }");
+      return {};
+    }
     read_zone(wave, zone);
+    const auto axis = static_cast<std::size_t>(zone.axis);
+    if (std::max(zone.outer, zone.inner) <= domain.lower[axis] ||
+        std::min(zone.outer, zone.inner) >= domain.upper[axis])
+      wave.fail("zone", fmt::format("it lies beside the domain, which reaches from {:g} to {:g} m",
+                                    domain.lower[axis], domain.upper[axis]));
     return {};
   }
   wave.forbid("zone", "a wave is made at a side or in a zone");
@@ -199,11 +208,16 @@ void read_waves(Section& root, CaseOptions& options) {
     if (side && zone.action == ZoneAction::velocity)
       section.fail("type", "a sponge is a zone", "Write zone = { outer = .., inner = .. }.");
     zone.still_level = section.number("still_level", quantity::length, {});
+    const double bottom = options.domain.lower[up], top = options.domain.upper[up];
+    if (zone.still_level <= bottom || zone.still_level >= top)
+      section.fail("still_level",
+                   fmt::format("the domain reaches from {:g} to {:g} m", bottom, top),
+                   "It is the height of still water, on the vertical axis.");
     zone.depth = section.number("depth", quantity::length,
                                 positive("waves need water; the depth lies above 0"),
-                                zone.still_level - options.domain.lower[up]);
+                                zone.still_level - bottom);
     zone.ramp = section.number("ramp", quantity::time,
-                               not_negative("the time over which the wave grows"), 0.0);
+                               not_negative("the time over which the wave grows; 0: at once"), 0.0);
     read_setting(section, zone);
     if (gravity <= 0.0) section.fail("type", "waves need gravity, and it does not point down here");
     check_wave(section, zone, gravity, before);

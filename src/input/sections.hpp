@@ -125,6 +125,22 @@ std::optional<double> read_permeability(Section& section, double density, double
 /// Reports bodies of ground, or rigid ones, that fill the same space.
 void check_overlaps(Reading& reading, const std::vector<NamedShape>& grounds);
 
+/// Place of an axis of the grid in (x, y, z).
+inline std::size_t coordinate(int axis, int dimension) {
+  return static_cast<std::size_t>(dimension == 2 && axis == 1 ? 2 : axis);
+}
+/// Do two parts of sides (axis, side, from and to along it) share a place?
+template <class One, class Other>
+bool parts_meet(const One& one, const Other& other, int dimension) {
+  if (one.axis != other.axis || one.side != other.side) return false;
+  for (int axis = 0; axis < dimension; ++axis) {
+    const std::size_t a = coordinate(axis, dimension);
+    if (axis != one.axis &&
+        !(std::max(one.from[a], other.from[a]) < std::min(one.to[a], other.to[a])))
+      return false;
+  }
+  return true;
+}
 /// Name of an axis in 2D (x, z) or 3D.
 std::string_view axis_name(int dimension, std::size_t axis);
 /// A position given per axis, as (x, y, z).

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-
 #include "base/errors.hpp"
 #include "input/text_columns.hpp"
 
@@ -15,31 +13,23 @@ constexpr Quantity density{"a density of the elevation's variance", "m2 s", "\"1
 
 class Reader {
  public:
-  Reader(const std::filesystem::path& file, const Units& units) : file_(file), units_(units) {}
+  Reader(const std::filesystem::path& file, const Units& units) : lines_(file), units_(units) {}
 
   std::vector<std::array<double, 2>> read() {
-    std::ifstream stream(file_);
-    std::string line;
-    while (std::getline(stream, line)) {
-      ++line_;
-      std::string_view text = line;
-      if (line_ == 1 && text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
-      text = trimmed(text);
-      if (!text.empty() && text.front() != '#') take(text);
-    }
+    std::string_view text;
+    while (lines_.next(text)) take(text);
     double highest = 0.0;
     for (const auto& row : rows_) highest = std::max(highest, row[1]);
     if (rows_.size() < 2 || highest <= 0.0)
-      throw InputError(fmt::format(
-          "{}: a spectrum has at least two lines of frequency and density, and one density above 0",
-          file_.string()));
+      lines_.fail_in_file(
+          "a spectrum has at least two lines of frequency and density, and one density above 0");
     return std::move(rows_);
   }
 
  private:
   void take(std::string_view text) {
     const auto fields = fields_of(text, separator_of(text));
-    if (fields.size() < 2) fail("two columns are expected, frequency and density");
+    if (fields.size() < 2) lines_.fail("two columns are expected, frequency and density");
     if (!begun_ && !number_of(fields[0])) {
       begun_ = true;
       factors_ = {factor(fields[0], frequency), factor(fields[1], density)};
@@ -47,10 +37,10 @@ class Reader {
     }
     begun_ = true;
     const auto f = number_of(fields[0]), s = number_of(fields[1]);
-    if (!f || !s) fail("two numbers are expected, frequency and density");
-    if (*f < 0.0 || *s < 0.0) fail("frequencies and densities are not negative");
+    if (!f || !s) lines_.fail("two numbers are expected, frequency and density");
+    if (*f < 0.0 || *s < 0.0) lines_.fail("frequencies and densities are not negative");
     if (!rows_.empty() && *f * factors_[0] <= rows_.back()[0])
-      fail(fmt::format("the frequency {} is not above the one before", *f));
+      lines_.fail(fmt::format("the frequency {} is not above the one before", *f));
     rows_.push_back({*f * factors_[0], *s * factors_[1]});
   }
 
@@ -59,20 +49,15 @@ class Reader {
     if (unit.empty()) return 1.0;
     const auto reading = units_.read("1 " + unit, quantity);
     if (!reading || !reading->value)
-      fail(fmt::format("the unit \"{}\" of the header does not hold: {}", unit,
-                       reading ? reading->problem : "that is no unit"));
+      lines_.fail(fmt::format("the unit \"{}\" of the header does not hold: {}", unit,
+                              reading ? reading->problem : "that is no unit"));
     return *reading->value;
   }
 
-  [[noreturn]] void fail(const std::string& problem) const {
-    throw InputError(fmt::format("{}:{}: {}", file_.string(), line_, problem));
-  }
-
-  const std::filesystem::path& file_;
+  TextLines lines_;
   const Units& units_;
   std::vector<std::array<double, 2>> rows_;
   std::array<double, 2> factors_{1.0, 1.0};
-  int line_ = 0;
   bool begun_ = false;
 };
 

@@ -1,8 +1,12 @@
 #include "input/text_columns.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+
+#include "base/errors.hpp"
 
 namespace mudlark {
 namespace {
@@ -61,6 +65,32 @@ std::string unit_in(std::string_view title) {
 
 std::string_view name_in(std::string_view title) {
   return trimmed(title.substr(0, title.find('[')));
+}
+
+bool TextLines::next(std::string_view& text) {
+  while (std::getline(stream_, line_)) {
+    ++number_;
+    text = line_;
+    if (number_ == 1 && text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+    text = trimmed(text);
+    if (!text.empty() && text.front() != '#') return true;
+  }
+  if (!stream_.eof()) fail_in_file("it cannot be read to its end");
+  return false;
+}
+
+void TextLines::fail_at(int line, const std::string& problem) const {
+  throw InputError(fmt::format("{}:{}: {}", file_.string(), line, problem));
+}
+
+void TextLines::fail_in_file(const std::string& problem) const {
+  throw InputError(fmt::format("{}: {}", file_.string(), problem));
+}
+
+double TextLines::number_in(std::string_view text) const {
+  if (const auto value = number_of(text)) return *value;
+  fail(fmt::format("\"{}\" is not a number",
+                   text.substr(0, std::min<std::size_t>(text.size(), 30))));
 }
 
 }  // namespace mudlark

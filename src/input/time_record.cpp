@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 
 #include "base/errors.hpp"
 #include "input/text_columns.hpp"
@@ -11,24 +10,16 @@
 namespace mudlark {
 namespace {
 
-/// Reads one file line by line.
+/// Reads one file.
 class Reader {
  public:
   Reader(const std::filesystem::path& file, const RecordColumns& columns)
-      : file_(file), columns_(columns) {}
+      : lines_(file), columns_(columns) {}
 
   TimeRecord read() {
-    std::ifstream stream(file_);
-    std::string line;
-    while (std::getline(stream, line)) {
-      ++line_;
-      std::string_view text = line;
-      if (line_ == 1 && text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
-      text = trimmed(text);
-      if (!text.empty() && text.front() != '#') take(text);
-    }
-    if (!stream.eof()) fail_in_file("it cannot be read to its end");
-    if (record_.times.empty()) fail_in_file("it holds no line of numbers");
+    std::string_view text;
+    while (lines_.next(text)) take(text);
+    if (record_.times.empty()) lines_.fail_in_file("it holds no line of numbers");
     return std::move(record_);
   }
 
@@ -42,11 +33,11 @@ class Reader {
     }
     const double time = number(fields, columns_.time), value = number(fields, record_.column);
     if (!record_.times.empty() && time <= record_.times.back())
-      fail(fmt::format("the time {} does not lie after the one before, {}", time,
-                       record_.times.back()));
+      lines_.fail(fmt::format("the time {} does not lie after the one before, {}", time,
+                              record_.times.back()));
     record_.times.push_back(time);
     record_.values.push_back(value);
-    record_.lines.push_back(line_);
+    record_.lines.push_back(lines_.number());
   }
 
   /// The first line is a header when it is no row of numbers.
@@ -58,7 +49,8 @@ class Reader {
         if (titles[i] == columns_.name || name_in(titles[i]) == columns_.name)
           record_.column = static_cast<int>(i) + 1;
       if (record_.column == 0)
-        fail(fmt::format("there is no column \"{}\" in this line, the header", columns_.name));
+        lines_.fail(
+            fmt::format("there is no column \"{}\" in this line, the header", columns_.name));
     }
     const auto title = [&](int column) {
       const auto i = static_cast<std::size_t>(column) - 1;
@@ -73,28 +65,21 @@ class Reader {
   double number(const std::vector<std::string_view>& fields, int column) const {
     const auto i = static_cast<std::size_t>(column) - 1;
     if (i >= fields.size())
-      fail(fmt::format("column {} is asked for, and the line has {}", column, fields.size()));
+      lines_.fail(
+          fmt::format("column {} is asked for, and the line has {}", column, fields.size()));
     const auto value = number_of(fields[i]);
     if (!value) {
       const bool comma = fields[i].find(',') != std::string_view::npos;
-      fail(fmt::format("\"{}\" in column {} is not a number{}",
-                       fields[i].substr(0, std::min<std::size_t>(fields[i].size(), 30)), column,
-                       comma ? "; write a decimal point, not a comma" : ""));
+      lines_.fail(fmt::format("\"{}\" in column {} is not a number{}",
+                              fields[i].substr(0, std::min<std::size_t>(fields[i].size(), 30)),
+                              column, comma ? "; write a decimal point, not a comma" : ""));
     }
     return *value;
   }
 
-  [[noreturn]] void fail(const std::string& problem) const {
-    throw InputError(fmt::format("{}:{}: {}", file_.string(), line_, problem));
-  }
-  [[noreturn]] void fail_in_file(const std::string& problem) const {
-    throw InputError(fmt::format("{}: {}", file_.string(), problem));
-  }
-
-  const std::filesystem::path& file_;
+  TextLines lines_;
   const RecordColumns& columns_;
   TimeRecord record_;
-  int line_ = 0;
   bool begun_ = false;
 };
 

@@ -1,5 +1,7 @@
 #pragma once
 /// Ghost layers of the water's fields: neighbours' values, and the mirror region behind the walls.
+#include <array>
+
 #include "grid/field.hpp"
 #include "grid/halo.hpp"
 
@@ -18,6 +20,13 @@ class Ghosts {
   /// Exchange between ranks only (fluxes, flags at faces).
   void exchange(FaceVector<D>& field) { halo_.exchange(field); }
   void exchange(CellField<D>& field) { halo_.exchange(field); }
+  /// What ranks added to their neighbours' faces comes to the owners, and from them back to all.
+  void add_to_owners(FaceVector<D>& field) {
+    std::array<double*, D> all{};
+    for (int a = 0; a < D; ++a) all[static_cast<std::size_t>(a)] = field[a].data();
+    halo_.add_to_owners(all);
+    halo_.exchange(all);
+  }
 
  private:
   void mirror_cells(double* values, int axis, int side) const;

@@ -61,7 +61,7 @@ void InterfaceAdvection<D>::sweep_axis(CellField<D>& water, const CellField<D>& 
     alpha[at] = theta[at] > 0.0 ? w[at] / theta[at] : 0.0;
   });
   ghosts_.update(alpha_);
-  if (walls) walls->extend_saturation(alpha_);
+  if (walls) walls->extend_saturation(porosity, alpha_);
   find_planes(axis);
 
   const std::ptrdiff_t s = grid.stride(axis);

@@ -65,7 +65,7 @@ void WallBand<D>::find_cells(const Space<D>& space) {
 }
 
 template <int D>
-void WallBand<D>::extend_saturation(CellField<D>& saturation) const {
+void WallBand<D>::extend_saturation(const CellField<D>& porosity, CellField<D>& saturation) const {
   const Grid<D>& grid = *grid_;
   const double* known = known_.data();
   double* alpha = saturation.data();
@@ -73,6 +73,7 @@ void WallBand<D>::extend_saturation(CellField<D>& saturation) const {
   double mine = 2.0;
   for (const auto& pass : passes_) {
     for (const Cell& cell : pass) {
+      if (porosity.data()[cell.at] > 0.0) continue;  // closes in this step, and holds its own yet
       if (cell.from == From::below) {
         alpha[cell.at] = std::clamp(alpha[cell.at + up] / film, 0.0, 1.0);
       } else if (cell.from == From::above) {

@@ -43,7 +43,7 @@ class WallBand {
   bool empty() const { return empty_; }
 
   /// Saturation in closed cells; those of open cells need valid ghosts.
-  void extend_saturation(CellField<D>& saturation) const;
+  void extend_saturation(const CellField<D>& porosity, CellField<D>& saturation) const;
   /// Velocity of closed faces, ghosts included; those of open faces need valid ghosts.
   void extend_velocity(FaceVector<D>& velocity);
 

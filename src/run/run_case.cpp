@@ -58,10 +58,10 @@ CaseEstimate estimate_in(const CaseOptions& options, MPI_Comm comm,
   if (world.soil()) {
     estimate.soil_step = world.soil()->stable_step();
     estimate.points = world.soil()->totals().points;
-    estimate.warnings = world.soil()->warnings();
     estimate.cpu_seconds +=
         end / estimate.soil_step * static_cast<double>(estimate.points) * soil_point_step;
   }
+  estimate.warnings = world.warnings();
   estimate.memory = peak_memory(comm);
   return estimate;
 }

@@ -52,9 +52,7 @@ class RunLog {
                             world.options().title, program_version(), program_commit(),
                             world.grid().ranks(), resumed ? "resumed" : "started",
                             world.clock().time(), world.options().time.end));
-    if (world.soil())
-      for (const std::string& warning : world.soil()->warnings())
-        results.log("warning: " + warning);
+    for (const std::string& warning : world.warnings()) results.log("warning: " + warning);
   }
   void stage() {
     const std::size_t number = world_->clock().stage();

@@ -53,7 +53,7 @@ World<D>::World(const CaseOptions& options, MPI_Comm comm)
     load_.emplace(grid_);
   }
   if (flow_ && soil_ && options.coupling.mode == CouplingMode::unified)
-    unified_.emplace(grid_, *flow_, *soil_);
+    unified_.emplace(grid_, *soil_);
 }
 
 template <int D>
@@ -68,6 +68,17 @@ void World<D>::initialise() {
   if (unified_) unified_->initialise(*flow_, *soil_);
   if (coupling_) coupling_->initialise(*flow_, *soil_, *load_);
   ledger_ = open_ledger(*this);
+}
+
+template <int D>
+std::vector<std::string> World<D>::warnings() const {
+  std::vector<std::string> all = soil_ ? soil_->warnings() : std::vector<std::string>{};
+  if (flow_ && flow_->solids().moving())
+    all.emplace_back(
+        "a [[solid]] moves through water. Pistons that stay in it have been checked; bodies that "
+        "enter or leave through the surface have forces that cannot be trusted, and may end the "
+        "run (docs/methods/bodies-in-water.md).");
+  return all;
 }
 
 template <int D>

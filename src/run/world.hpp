@@ -30,6 +30,8 @@ class World {
   void advance(double dt);
   /// Enters the stage that follows the one that is over. Collective.
   void begin_next_stage();
+  /// What the case asks of methods that cannot do it well, in words. Collective.
+  std::vector<std::string> warnings() const;
   /// Brings derived values up to date after a state was loaded. Collective.
   void restore();
 

@@ -426,7 +426,8 @@ void SoilSolver<D>::set_pore_pressure(const CellField<D>& pressure) {
   for (std::size_t b = 0; b < points_.size(); ++b) {
     if (constants_[b].water_density == 0.0 && !constants_[b].in_grid_water) continue;
     auto& points = points_[b];
-    points.pore_pressure = sample_at_points(*grid_, points, options_.kernel, pressure);
+    sample_range(*grid_, points, {0, points.size()}, options_.kernel, pressure,
+                 points.pore_pressure);
     if (const auto& excess = options_.bodies[b].initial_pore_pressure)
       for (std::size_t p = 0; p < points.size(); ++p)
         points.pore_pressure[p] += (*excess)(to_point3(points.position_of(p)), 0.0);

@@ -290,20 +290,6 @@ void add_solid_fraction(const Grid<D>& grid, const SoilParticles<D>& points, dou
   });
 }
 
-template <int D>
-std::vector<double> sample_at_points(const Grid<D>& grid, const SoilParticles<D>& points,
-                                     Kernel kernel, const CellField<D>& field) {
-  const Vec<D> per_spacing = inverse(grid.spacing());
-  std::vector<double> values(points.size());
-  with_kernel(kernel, [&]<class K>(K) {
-    for (std::size_t p = 0; p < points.size(); ++p) {
-      const PointSplines<D, K> splines(in_cells(grid, per_spacing, points.position_of(p)));
-      values[p] = sample(grid, splines, per_spacing, &field).value;
-    }
-  });
-  return values;
-}
-
 template void points_to_grid(const Grid<2>&, const SoilParticles<2>&, const BodyConstants&, Kernel,
                              Transfer, const SurfacePressure<2>&, NodeField<NodeSums, 2>&);
 template void points_to_grid(const Grid<3>&, const SoilParticles<3>&, const BodyConstants&, Kernel,
@@ -326,11 +312,7 @@ template void grid_to_points_one_by_one(const Grid<3>&, const NodeField<NodeMoti
                                         PointMotion&);
 template void add_solid_fraction(const Grid<2>&, const SoilParticles<2>&, double, Kernel, double,
                                  CellField<2>&);
-template std::vector<double> sample_at_points(const Grid<2>&, const SoilParticles<2>&, Kernel,
-                                              const CellField<2>&);
 template void add_solid_fraction(const Grid<3>&, const SoilParticles<3>&, double, Kernel, double,
                                  CellField<3>&);
-template std::vector<double> sample_at_points(const Grid<3>&, const SoilParticles<3>&, Kernel,
-                                              const CellField<3>&);
 
 }  // namespace mudlark

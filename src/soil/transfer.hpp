@@ -89,9 +89,4 @@ template <int D>
 void add_solid_fraction(const Grid<D>& grid, const SoilParticles<D>& points, double grain_density,
                         Kernel kernel, double weight, CellField<D>& solid_fraction);
 
-/// Value of a cell field (ghosts valid) at each point, with the across-axis spline.
-template <int D>
-std::vector<double> sample_at_points(const Grid<D>& grid, const SoilParticles<D>& points,
-                                     Kernel kernel, const CellField<D>& field);
-
 }  // namespace mudlark

@@ -9,10 +9,10 @@ void SoilSolver<D>::move_with(const FaceVector<D>& velocity, const FaceVector<D>
                               double dt) {
   sides_.update(time_, dt);
   for (int d = 0; d < D; ++d) {
-    NodeField<NodeMotion, D>& motion = motion_;
+    auto& motion = motion_[static_cast<std::size_t>(d)];
     for_each(solved_faces(sides_, d).intersected(active_), [&](const Index<D>& face) {
       const double v = velocity[d][face], dv = change[d][face];
-      motion[static_cast<std::size_t>(d)][face] = {v, dv, v, dv, v};
+      motion[face] = {v, dv, v, dv, v};
     });
   }
   mirror_motion(sides_, active_, sums_, motion_);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "soil/pore_cells.hpp"
 #include "soil/walls.hpp"
 #include "unit/soil/soil_setup.hpp"
 
@@ -283,8 +284,10 @@ void expect_divergence_is_that_of_the_grid() {
     }
   });
   SoilParticles<D> points = make_cloud(grid, cube<D>(0, 5), 3, 1.0);
-  const std::vector<double> expected = sample_at_points(grid, points, Kernel::composite, flux);
-  const std::vector<double> strain = sample_at_points(grid, points, Kernel::composite, grains);
+  const PointRange all{0, points.size()};
+  std::vector<double> expected, strain;
+  sample_range(grid, points, all, Kernel::composite, flux, expected);
+  sample_range(grid, points, all, Kernel::composite, grains, strain);
   PointMotion motion;
   grid_to_points(grid, nodes, Kernel::composite, Transfer::flip, 1.0, 1.0, true, points, motion);
   for (std::size_t p = 0; p < points.size(); ++p) {

@@ -80,6 +80,17 @@ TEST(FlowSides, ADischargeBringsJustItsVolume) {
   EXPECT_NEAR(ledger.present, ledger.initial + brought, 1e-12);
 }
 
+TEST(FlowSides, AGivenVelocityBringsItsVolumeThroughItsPart) {
+  FlowOptions options = water();
+  options.sides = {opening(0, SideFlow::velocity, Varying(0.2))};
+  options.sides[0].to[2] = 0.1;
+  FlowRun<2> run(channel(40, Wall::slip, Wall::slip), options);
+  for (int step = 0; step < 50; ++step) run.step(0.01);
+  const WaterLedger ledger = run.flow.ledger();
+  EXPECT_NEAR(-ledger.outflow, 0.2 * 0.1 * 0.5, 1e-12);
+  EXPECT_NEAR(ledger.present, ledger.initial - ledger.outflow, 1e-12);
+}
+
 TEST(FlowSides, ALevelOutsideHoldsStillWaterAndFillsALowerPool) {
   FlowOptions options = water();
   options.sides = {opening(1, SideFlow::level, Varying(0.2))};

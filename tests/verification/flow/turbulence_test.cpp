@@ -154,8 +154,8 @@ TEST(KEpsilonModel, FlowInPoresHasTheTurbulenceOfThePores) {
   while (run.time < 2.0) run.step(0.002);
   const Index<2> cell = run.grid.owned().lower;
   const double v = run.flow.velocity()[0][cell], n = 0.45;
-  const double k = 3.7 * (1.0 - n) / std::sqrt(n) * v * v;
-  const double epsilon = 39.0 * std::pow(1.0 - n, 2.5) / n * v * v * v / 0.02;
+  const double k = 3.7 * (1.0 - n) / std::sqrt(n) * (n * v) * (n * v);
+  const double epsilon = 39.0 * std::pow(1.0 - n, 2.5) / n * std::pow(n * v, 3.0) / 0.02;
   EXPECT_GT(v, 0.01);
   EXPECT_NEAR((*run.flow.turbulence()->fields()[1])[cell], k, 0.02 * k);
   EXPECT_NEAR((*run.flow.turbulence()->fields()[2])[cell], epsilon, 0.02 * epsilon);

@@ -116,6 +116,7 @@ TEST(OneWater, ConsolidatesAsTerzaghiSays) {
 
 /// However little the soil lets through, the step is the same, and water carries the load at first.
 TEST(OneWater, TakesTheWholeLoadInSoilThatLetsNothingThrough) {
+  std::vector<double> steps;
   for (const double k : {1e-5, 1e-9}) {
     CaseOptions c = bed<2>(0.05, k, 1e6);
     c.soil->loads.push_back({"plate", Varying(1000.0)});
@@ -124,9 +125,10 @@ TEST(OneWater, TakesTheWholeLoadInSoilThatLetsNothingThrough) {
     const double at_rest = read(world, GaugeQuantity::pore_pressure, 0.3);
     run_until(world, 0.05);
     EXPECT_NEAR(read(world, GaugeQuantity::pore_pressure, 0.3) - at_rest, 1000.0, 5.0) << k;
-    EXPECT_GT(world.effort().smallest_step + world.effort().largest_step, 1e-3) << k;
+    steps.push_back(world.stable_step());
     EXPECT_LT(std::abs(read(world, GaugeQuantity::settlement, 0.98)), 1e-5) << k;
   }
+  EXPECT_NEAR(steps[0], steps[1], 0.01 * steps[0]);
 }
 
 /// Grains of a closed box that are thrown up fall through the water they stir, and nothing is lost.
