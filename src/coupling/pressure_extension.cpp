@@ -23,14 +23,14 @@ double PressureExtension<D>::hydrostatic_difference(int axis) const {
 template <int D>
 void PressureExtension<D>::extend(const CellField<D>& open, const CellField<D>& wetness,
                                   double water_density, const IndexBox<D>& box,
-                                  CellField<D>& pressure) {
+                                  CellField<D>& pressure, int layers) {
   water_density_ = water_density;
   const IndexBox<D> cells = box.intersected(grid_->owned());
   known_.copy_values_from(open);
   wet_.copy_values_from(wetness);
   const std::array<double*, 3> fields{known_.data(), wet_.data(), pressure.data()};
   halo_.exchange(fields);
-  for (bool more = true; more;) {
+  for (bool more = true; more && layers > 0; --layers) {
     const bool mine = extend_one_layer(cells, pressure);
     more = max_over_ranks(*grid_, mine ? 1.0 : 0.0) > 0.0;
     if (more) halo_.exchange(fields);

@@ -1,5 +1,7 @@
 #pragma once
 /// The free water's pressure, continued smoothly into the soil.
+#include <limits>
+
 #include "grid/halo.hpp"
 
 namespace mudlark {
@@ -15,9 +17,11 @@ class PressureExtension {
  public:
   explicit PressureExtension(const Grid<D>& grid);
 
-  /// `wetness`: 1 in cells with water, 0 in dry ones; read in open cells only.
+  /// `wetness`: 1 in cells with water, 0 in dry ones; read in open cells only. At most so many
+  /// `layers` of cells are filled.
   void extend(const CellField<D>& open, const CellField<D>& wetness, double water_density,
-              const IndexBox<D>& box, CellField<D>& pressure);
+              const IndexBox<D>& box, CellField<D>& pressure,
+              int layers = std::numeric_limits<int>::max());
 
  private:
   bool extend_one_layer(const IndexBox<D>& cells, CellField<D>& pressure);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "flow/porous_medium.hpp"
+#include "numerics/ghosts.hpp"
 #include "soil/soil_solver.hpp"
 
 namespace mudlark {
@@ -13,16 +14,43 @@ class SoilInWater {
   /// Porosity that the water never goes below, so that squeezed cells keep an equation.
   static constexpr double least_porosity = 0.05;
 
+  /// Room in reach that cells inside bodies count with at least.
+  static constexpr double least_reach = 0.02;
+
   explicit SoilInWater(const Grid<D>& grid)
       : grid_(&grid),
+        ghosts_(grid),
         fraction_(grid, "solid fraction", "1"),
-        resistance_(grid, "resistance", "Pa s/m2") {}
+        resistance_(grid, "resistance", "Pa s/m2"),
+        reach_(grid, "room within reach", "1", 1.0),
+        spread_(grid, "room within reach", "1") {}
+
+  /// Room that rigid bodies leave within the reach of the kernel, where they are now: points beside
+  /// a body leave a part of their grains on cells inside it, and what cells beside it hold is
+  /// counted per volume that grains could have filled. Collective.
+  void find_reach(const Space<D>& space) {
+    reach_.copy_values_from(space.volume);
+    for (int axis = 0; axis < D; ++axis) {
+      spread_.copy_values_from(reach_);
+      const std::ptrdiff_t s = grid_->stride(axis);
+      const double* from = spread_.data();
+      double* to = reach_.data();
+      for_each(grid_->owned(), [&](const Index<D>& cell) {
+        const std::ptrdiff_t at = grid_->offset(cell);
+        to[at] = (from[at - s] + 4.0 * from[at] + from[at + s]) / 6.0;
+      });
+      ghosts_.update(reach_);
+    }
+    for_each(grid_->local(),
+             [&](const Index<D>& cell) { reach_[cell] = std::max(reach_[cell], least_reach); });
+  }
 
   /// Grains and resistance of the points on the cells, and what porosity they leave of that of the
   /// fixed ground; ghosts included. Collective.
   void find(SoilSolver<D>& soil, const PorousMedium<D>& fixed, PorousMedium<D>& medium) {
     soil.solid_fraction(fraction_, resistance_);
     for_each(grid_->local(), [&](const Index<D>& cell) {
+      fraction_[cell] /= reach_[cell], resistance_[cell] /= reach_[cell];
       medium.porosity[cell] = std::max(least_porosity, fixed.porosity[cell] - fraction_[cell]);
     });
   }
@@ -45,7 +73,10 @@ class SoilInWater {
 
  private:
   const Grid<D>* grid_;
+  Ghosts<D> ghosts_;
   CellField<D> fraction_, resistance_;
+  CellField<D> reach_;   ///< mean room around a cell [-], weighted as the kernel does
+  CellField<D> spread_;  ///< room that has been spread along some of the axes [-]
 };
 
 }  // namespace mudlark

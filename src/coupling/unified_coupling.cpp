@@ -18,9 +18,13 @@ UnifiedCoupling<D>::UnifiedCoupling(const Grid<D>& grid, const SoilSolver<D>& so
       grain_density_(soil.options().bodies.front().grain_density),
       room_(grid),
       pressure_(grid, "pressure", "Pa"),
+      open_(grid, "open", "1"),
+      wet_(grid, "wet", "1"),
       grains_(grid),
       change_(grid, "grain change", "m/s"),
-      before_(grid, "grain velocity before", "m/s") {}
+      before_(grid, "grain velocity before", "m/s") {
+  if (!soil.options().solids.empty()) extension_.emplace(grid);
+}
 
 template <int D>
 void UnifiedCoupling<D>::map_soil_to_grid(SoilSolver<D>& soil, const PorousMedium<D>& fixed,
@@ -41,7 +45,7 @@ void UnifiedCoupling<D>::move_grains(SoilSolver<D>& soil, double dt) {
 /// face, not one minus the cells' porosity: then grains at rest in water at rest weigh exactly what
 /// they weigh under water, wherever the points stand (docs/decisions/0070).
 template <int D>
-void UnifiedCoupling<D>::load_grains(SoilSolver<D>& soil, double dt) {
+void UnifiedCoupling<D>::load_grains(const Space<D>& space, SoilSolver<D>& soil, double dt) {
   const NodeField<NodeSums, D>& sums = soil.load_faces(dt);
   const double per_volume = 1.0 / grid_->cell_volume();
   for (int a = 0; a < D; ++a) {
@@ -58,6 +62,7 @@ void UnifiedCoupling<D>::load_grains(SoilSolver<D>& soil, double dt) {
     });
     before_[a].copy_values_from(grains_.velocity[a]);
   }
+  if (extension_) push_beside_solids(space);
   std::array<double*, std::size_t{4} * D> fields{};
   std::size_t number = 0;
   for (FaceVector<D>* field : {&grains_.share, &grains_.inertia, &grains_.force, &grains_.velocity})
@@ -65,8 +70,28 @@ void UnifiedCoupling<D>::load_grains(SoilSolver<D>& soil, double dt) {
   halo_.exchange(fields);
 }
 
+/// On the part of a face that lies in a body grains share no flux with the water, only its
+/// pressure: that of the last step, continued into the body. At rest they so keep their weight
+/// under water. What resists the water does so in the open part of the face.
 template <int D>
-void UnifiedCoupling<D>::follow_water(const FlowSolver<D>& flow, SoilSolver<D>& soil) {
+void UnifiedCoupling<D>::push_beside_solids(const Space<D>& space) {
+  for (int a = 0; a < D; ++a) {
+    const double per_length = 1.0 / grid_->spacing()[a];
+    for_each(grid_->owned_faces(a), [&](const Index<D>& face) {
+      const double open = space.aperture[a][face];
+      double& share = grains_.share[a][face];
+      if (open == 1.0 || share == 0.0) return;
+      const double gradient = (pressure_[face] - pressure_[face.shifted(a, -1)]) * per_length;
+      grains_.force[a][face] -= (1.0 - open) * share * gradient;
+      share *= open;
+      if (open > 0.0) grains_.resistance[a][face] /= open;
+    });
+  }
+}
+
+template <int D>
+void UnifiedCoupling<D>::follow_water(const FlowSolver<D>& flow, SoilSolver<D>& soil, double dt) {
+  soil.press_solids(grains_.velocity, dt);
   for (int a = 0; a < D; ++a)
     for_each(grid_->owned_faces(a), [&](const Index<D>& face) {
       change_[a][face] = grains_.velocity[a][face] - before_[a][face];
@@ -74,11 +99,23 @@ void UnifiedCoupling<D>::follow_water(const FlowSolver<D>& flow, SoilSolver<D>& 
   note_pore_pressure(flow, soil);
 }
 
+/// Two layers deep: as far as the kernels of points beside a body reach.
+template <int D>
+void UnifiedCoupling<D>::extend_into_solids(const FlowSolver<D>& flow) {
+  const CellField<D>& room = flow.porosity();
+  for_each(grid_->local(), [&](const Index<D>& cell) {
+    open_[cell] = room[cell] > 0.0 ? 1.0 : 0.0;
+    wet_[cell] = flow.saturation()[cell] >= 0.5 ? 1.0 : 0.0;
+  });
+  extension_->extend(open_, wet_, flow.density(), grid_->global(), pressure_, 2);
+}
+
 /// What points show as pore pressure. Behind closed sides it goes on straight, or points beside a
 /// floor would show less than their depth.
 template <int D>
 void UnifiedCoupling<D>::note_pore_pressure(const FlowSolver<D>& flow, SoilSolver<D>& soil) {
   pressure_.copy_values_from(flow.pressure());
+  if (extension_) extend_into_solids(flow);
   for (int axis = 0; axis < D; ++axis)
     for (int side = 0; side < 2; ++side) {
       if (!grid_->touches(axis, side) || grid_->wall(axis, side) == Wall::open) continue;
@@ -100,10 +137,11 @@ void UnifiedCoupling<D>::note_pore_pressure(const FlowSolver<D>& flow, SoilSolve
 
 /// As after a step in which nothing changed.
 template <int D>
-void UnifiedCoupling<D>::initialise(const FlowSolver<D>& flow, SoilSolver<D>& soil) {
-  load_grains(soil, 1.0);
-  change_.fill(0.0);
+void UnifiedCoupling<D>::initialise(const FlowSolver<D>& flow, const Space<D>& space,
+                                    SoilSolver<D>& soil) {
   note_pore_pressure(flow, soil);
+  load_grains(space, soil, 1.0);
+  change_.fill(0.0);
 }
 
 template class UnifiedCoupling<2>;

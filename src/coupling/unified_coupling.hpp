@@ -9,6 +9,7 @@
 ///   4. the flow moves its water, and solves the momentum of water and grains with the pressure
 ///      that makes the flux of the two together free of divergence (flow/moving_grains.hpp);
 ///   5. the grains' velocities wait for the next step (`follow_water`).
+#include "coupling/pressure_extension.hpp"
 #include "coupling/soil_in_water.hpp"
 #include "flow/flow_solver.hpp"
 #include "grid/halo.hpp"
@@ -22,12 +23,14 @@ class UnifiedCoupling {
   UnifiedCoupling(const Grid<D>& grid, const SoilSolver<D>& soil);
 
   /// Velocities of the grains at the start, after flow and soil have theirs. Collective.
-  void initialise(const FlowSolver<D>& flow, SoilSolver<D>& soil);
+  void initialise(const FlowSolver<D>& flow, const Space<D>& space, SoilSolver<D>& soil);
+  /// Rigid bodies stand where the space says. Collective.
+  void place_solids(const Space<D>& space) { room_.find_reach(space); }
 
   void map_soil_to_grid(SoilSolver<D>& soil, const PorousMedium<D>& fixed, PorousMedium<D>& medium);
   void move_grains(SoilSolver<D>& soil, double dt);
-  void load_grains(SoilSolver<D>& soil, double dt);
-  void follow_water(const FlowSolver<D>& flow, SoilSolver<D>& soil);
+  void load_grains(const Space<D>& space, SoilSolver<D>& soil, double dt);
+  void follow_water(const FlowSolver<D>& flow, SoilSolver<D>& soil, double dt);
 
   MovingGrains<D>& grains() { return grains_; }
 
@@ -35,16 +38,21 @@ class UnifiedCoupling {
   void archive(Archive& a) {
     a.faces("grain velocity", grains_.velocity);
     a.faces("grain change", change_);
+    a.cells("continued pressure", pressure_);
   }
 
  private:
   void note_pore_pressure(const FlowSolver<D>& flow, SoilSolver<D>& soil);
+  void extend_into_solids(const FlowSolver<D>& flow);
+  void push_beside_solids(const Space<D>& space);
 
   const Grid<D>* grid_;
   Halo<D> halo_;
   double grain_density_;
   SoilInWater<D> room_;
-  CellField<D> pressure_;
+  CellField<D> pressure_;  ///< of the water, continued into bodies and behind closed sides [Pa]
+  std::optional<PressureExtension<D>> extension_;  ///< where there are bodies
+  CellField<D> open_, wet_;                        ///< cells that are no body; with water
   MovingGrains<D> grains_;
   FaceVector<D> change_;  ///< of the grains' velocity over the last step [m/s]
   FaceVector<D> before_;  ///< that velocity before it [m/s]

@@ -10,7 +10,6 @@ namespace mudlark {
 template <int D>
 void FlowSolver<D>::restore(PorousMedium<D>& medium) {
   if (solids_.empty()) return;
-  solids_.fill(medium);
   find_capacity(medium);
   find_unknowns();
 }

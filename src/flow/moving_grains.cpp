@@ -50,18 +50,17 @@ void GrainsInWater<D>::couple(const FaceVector<D>& capacity, const CellField<D>&
       if (inertia > 0.0) {
         // Where no pressure acts, water is what the cells hold: it pulls at grains by the square of
         // its share of the pores, and nothing pulls at them in air.
-        const bool wet = governed[at] + governed[at - s] > 0.0;
-        const double filled = wet ? 1.0 : (w[at] + w[at - s]) / (room[at] + room[at - s]);
+        const bool wet = governed[at] + governed[at - s] > 0.0, open = theta[at] > 0.0;
+        const double filled = wet || !open ? 1.0 : (w[at] + w[at - s]) / (room[at] + room[at - s]);
         const double resistance = grains.resistance[axis].data()[at];
-        const FaceSystem face{inertia, filled * theta[at] * dt / m[at],
+        const FaceSystem face{inertia, open ? filled * theta[at] * dt / m[at] : 0.0,
                               dt * filled * filled * theta[at] * theta[at] * resistance};
         const Pair now = face.solve(inertia * grain_v[at] + dt * grains.force[axis].data()[at],
                                     face.water_mass * v[at]);
         const Pair answer = face.solve(dt * share, dt * theta[at]);
         grain_v[at] = now.grains;
         grain_m[at] = answer.grains;
-        v[at] = now.water;
-        m[at] = answer.water;
+        if (open) v[at] = now.water, m[at] = answer.water;
       } else {
         grain_v[at] = grain_m[at] = 0.0;
       }

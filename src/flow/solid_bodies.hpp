@@ -53,7 +53,7 @@ class SolidBodies {
   template <class Archive>
   void archive(Archive& a) {
     for (std::size_t b = 0; b < poses_.size(); ++b) {
-      const std::string at = "solid/" + options_[b].name + "/";
+      const std::string at = "solid in water/" + options_[b].name + "/";
       poses_[b].archive(a, at);
       for (int i = 0; i < 3; ++i) {
         a.number(at + "velocity " + std::to_string(i), velocities_[b].velocity[i]);

@@ -37,8 +37,8 @@ CaseOptions read_case(const std::filesystem::path& file, std::span<const std::st
         root.place("soil"),
         "soil needs cells of one size, and [[domain.refinement]] stretches them\n  (its material "
         "points carry splines of a uniform grid). Leave the refinement out.");
-  read_solids(root, options);
   read_coupling(root, options);
+  read_solids(root, options);
   read_loads(root, options);
   read_boundaries(root, options);
   read_waves(root, options);

@@ -43,7 +43,6 @@ std::vector<std::string> excluded(const CaseOptions& options) {
   no(takes_implicit_steps(soil), "soil_solver.method = \"implicit\"");
   no(options.flow && options.flow->gas, "water.air = \"gas\"");
   no(options.flow && !options.flow->sides.empty(), "[[opening]], or a [[wave]] at a side,");
-  no(!soil.solids.empty(), "[[solid]]");
   no(!soil.boundaries.empty(), "[[boundary]]");
   no(!soil.stages.empty(), "[[stage]]");
   no(soil.start_in_equilibrium.has_value(), "soil_solver.start_in_equilibrium");

@@ -99,7 +99,7 @@ void read_solid_name(Section& section, const CaseOptions& options, GaugeOptions&
   Section::Words names;
   if (options.soil)
     for (const SolidOptions& solid : options.soil->solids) names.push_back(solid.name);
-  if (options.flow)
+  if (options.flow && !options.soil)
     for (const FlowSolid& solid : options.flow->solids) names.push_back(solid.name);
   if (names.empty()) {
     section.has("of");
@@ -131,8 +131,10 @@ void read_own_keys(Section& section, const CaseOptions& options, GaugeOptions& g
     read_gauge_section(section, gauge.range);
   else
     section.forbid("section", "water is counted at one by section_flux and overtopping");
-  const bool load = options.flow && (gauge.quantity == GaugeQuantity::solid_force ||
-                                     gauge.quantity == GaugeQuantity::solid_moment);
+  // Soil pushes at all of a body: parts are told apart in water alone.
+  const bool load = options.flow && !options.soil &&
+                    (gauge.quantity == GaugeQuantity::solid_force ||
+                     gauge.quantity == GaugeQuantity::solid_moment);
   if (run_up) read_run_up_range(section, gauge);
   if (load) read_solid_part(section, gauge.range);
   for (const char* key : {"from", "to", "thickness"})

@@ -1,4 +1,4 @@
-/// [[solid]]: rigid bodies in soil or in flowing water
+/// [[solid]]: rigid bodies in soil, in flowing water, or in both
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -169,7 +169,7 @@ void read_contact(Section& section, SolidOptions& solid) {
       not_negative("the shear strength of the contact without pressure"), solid.adhesion);
 }
 
-SolidOptions read_solid(Section& section, bool in_water, std::vector<std::string>& names) {
+SolidOptions read_solid(Section& section, bool in_soil, std::vector<std::string>& names) {
   SolidOptions solid;
   solid.name = read_name(section, names);
   if (const auto shape = read_shape(section, "shape", true)) solid.shape = *shape;
@@ -179,12 +179,13 @@ SolidOptions read_solid(Section& section, bool in_water, std::vector<std::string
     if (centre.size() == axes) solid.centre = point_from_axes(centre);
   }
   read_motion(section, solid);
-  if (!in_water) read_contact(section, solid);
+  if (in_soil) read_contact(section, solid);
   return solid;
 }
 
 /// The same body as the water sees it.
-FlowSolid read_flow_solid(Section& section, const SolidOptions& solid, const FlowOptions& flow) {
+FlowSolid read_flow_solid(Section& section, const SolidOptions& solid, const FlowOptions& flow,
+                          bool in_soil) {
   const bool moves_as_given = std::holds_alternative<PrescribedSolid>(solid.motion);
   FlowSolid body{solid.name, solid.shape, solid.centre, {}, false};
   if (const auto* given = std::get_if<PrescribedSolid>(&solid.motion)) body.motion = *given;
@@ -197,7 +198,7 @@ FlowSolid read_flow_solid(Section& section, const SolidOptions& solid, const Flo
     section.fail("motion", "a body that moves in a case with [[porous]] ground is not there yet",
                  "Write \"fixed\", or leave the ground out.");
   for (const char* key : {"friction_coefficient", "adhesion"})
-    section.forbid(key, "it is for soil; `wall` says how water passes the body");
+    if (!in_soil) section.forbid(key, "it is for soil; `wall` says how water passes the body");
   body.no_slip = section.choice<bool>("wall", {{"slip", false}, {"no-slip", true}}, false);
   if (body.no_slip && !std::holds_alternative<FixedSolid>(solid.motion))
     section.fail("wall", "water has friction on fixed bodies only");
@@ -210,10 +211,12 @@ void read_solids(Section& root, CaseOptions& options) {
   std::vector<Section> sections = root.tables("solid");
   if (sections.empty()) return;
   Report& report = root.reading().report;
-  if (options.flow && options.soil)
+  const bool in_water = options.flow.has_value(), in_soil = options.soil.has_value();
+  if (in_water && in_soil && options.coupling.mode != CouplingMode::unified)
     report.add(root.place("solid"),
-               "[[solid]] stands in soil or in flowing water; with both in one case it is not "
-               "there yet. Leave one of the three out.");
+               "[[solid]] in soil under flowing water needs coupling.mode = \"unified\"\n  (and "
+               "pore_water = \"unified\" in every [[soil]]): the other modes let water or soil "
+               "pass it.");
   else if (options.flow && options.flow->gas)
     report.add(root.place("solid"),
                "[[solid]] stands in water under air of no mass; with air = \"gas\" it is not there "
@@ -230,10 +233,9 @@ void read_solids(Section& root, CaseOptions& options) {
   std::vector<NamedShape> bodies;
   for (Section& section : sections) {
     const std::size_t before = report.size();
-    const bool in_water = options.flow && !options.soil;
-    SolidOptions solid = read_solid(section, in_water, names);
+    SolidOptions solid = read_solid(section, in_soil, names);
     if (in_water)
-      options.flow->solids.push_back(read_flow_solid(section, solid, *options.flow));
+      options.flow->solids.push_back(read_flow_solid(section, solid, *options.flow, in_soil));
     else
       section.forbid("wall", "it is for bodies in flowing water");
     section.finish();

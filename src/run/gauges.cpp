@@ -99,6 +99,17 @@ std::vector<double> read_flow_solid(World<D>& world, const GaugeOptions& gauge) 
   }
 }
 
+/// What soil and, where it flows around the body, water do to it. Collective.
+template <int D>
+SolidLoad load_on(World<D>& world, const Solid& solid) {
+  SolidLoad load{solid.force(), solid.moment()};
+  if (!world.flow()) return load;
+  const auto body = world.flow()->solids().find(solid.options().name);
+  const SolidLoad water = world.flow()->solid_load(*body, {});
+  load.force += water.force, load.moment += water.moment;
+  return load;
+}
+
 template <int D>
 std::vector<double> read_solid(World<D>& world, const GaugeOptions& gauge) {
   if (!world.soil()) return read_flow_solid(world, gauge);
@@ -108,9 +119,9 @@ std::vector<double> read_solid(World<D>& world, const GaugeOptions& gauge) {
   });
   switch (gauge.quantity) {
     case GaugeQuantity::solid_force:
-      return along_axes<D>(solid.force());
+      return along_axes<D>(load_on(world, solid).force);
     case GaugeQuantity::solid_moment:
-      return about_axes<D>(solid.moment());
+      return about_axes<D>(load_on(world, solid).moment);
     case GaugeQuantity::solid_displacement:
       return along_axes<D>(solid.displacement());
     case GaugeQuantity::solid_rotation:
@@ -267,7 +278,7 @@ template <int D>
 std::vector<SolidSummary> describe_solids(World<D>& world) {
   std::vector<SolidSummary> all;
   const std::string force = D == 2 ? "N/m" : "N", moment = D == 2 ? "N m/m" : "N m";
-  if (FlowSolver<D>* flow = world.flow()) {
+  if (FlowSolver<D>* flow = world.flow(); flow && !world.soil()) {
     for (std::size_t b = 0; b < flow->solids().size(); ++b) {
       const RigidPose& pose = flow->solids().pose(b);
       const SolidLoad load = flow->solid_load(b, {});
@@ -279,15 +290,17 @@ std::vector<SolidSummary> describe_solids(World<D>& world) {
     }
   }
   if (!world.soil()) return all;
-  for (const Solid& solid : world.soil()->solids())
+  for (const Solid& solid : world.soil()->solids()) {
+    const SolidLoad load = load_on(world, solid);
     all.push_back({solid.options().name,
                    {{"centre [m]", along_axes<D>(solid.centre())},
                     {"displacement [m]", along_axes<D>(solid.displacement())},
                     {"rotation [rad]", about_axes<D>(solid.rotation())},
                     {"velocity [m/s]", along_axes<D>(solid.velocity())},
                     {"angular velocity [rad/s]", about_axes<D>(solid.spin())},
-                    {"force [" + force + "]", along_axes<D>(solid.force())},
-                    {"moment [" + moment + "]", about_axes<D>(solid.moment())}}});
+                    {"force [" + force + "]", along_axes<D>(load.force)},
+                    {"moment [" + moment + "]", about_axes<D>(load.moment)}}});
+  }
   return all;
 }
 

@@ -123,7 +123,7 @@ template <int D>
 CellField<D> solid_share(World<D>& world) {
   const Grid<D>& grid = world.grid();
   CellField<D> share(grid, "solid", "1");
-  if (!world.soil()) {
+  if (world.flow()) {
     for_each(grid.owned(), [&](const Index<D>& cell) {
       share[cell] = 1.0 - world.flow()->solids().open_volume()[cell];
     });

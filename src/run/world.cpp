@@ -59,13 +59,12 @@ World<D>::World(const CaseOptions& options, MPI_Comm comm)
 template <int D>
 void World<D>::initialise() {
   if (soil_) soil_->initialise();
+  if (flow_) flow_->place_solids(medium_);
+  if (unified_) unified_->place_solids(medium_.space);
   if (coupling_) coupling_->map_soil_to_grid(*soil_, fixed_, medium_);
   if (unified_) unified_->map_soil_to_grid(*soil_, fixed_, medium_);
-  if (flow_) {
-    flow_->place_solids(medium_);
-    flow_->initialise(medium_);
-  }
-  if (unified_) unified_->initialise(*flow_, *soil_);
+  if (flow_) flow_->initialise(medium_);
+  if (unified_) unified_->initialise(*flow_, medium_.space, *soil_);
   if (coupling_) coupling_->initialise(*flow_, *soil_, *load_);
   ledger_ = open_ledger(*this);
 }
@@ -87,7 +86,11 @@ void World<D>::restore() {
     soil_->apply_stage(clock_.stage());
     soil_->redistribute();
   }
-  if (unified_) unified_->map_soil_to_grid(*soil_, fixed_, medium_);
+  if (flow_) flow_->place_solids(medium_);
+  if (unified_) {
+    unified_->place_solids(medium_.space);
+    unified_->map_soil_to_grid(*soil_, fixed_, medium_);
+  }
   if (flow_) flow_->restore(medium_);
   if (!coupling_) return;
   coupling_->restore();
@@ -172,15 +175,19 @@ void World<D>::advance_together(double dt) {
   }
   {
     const Stopwatch watch(effort_.mapping);
+    if (flow_->solids().moving()) {
+      flow_->move_solids(medium_, dt);
+      unified_->place_solids(medium_.space);
+    }
     unified_->map_soil_to_grid(*soil_, fixed_, medium_);
   }
   {
     const Stopwatch watch(effort_.soil);
-    unified_->load_grains(*soil_, dt);
+    unified_->load_grains(medium_.space, *soil_, dt);
   }
   const Stopwatch watch(effort_.flow);
   flow_->advance(medium_, dt, &unified_->grains());
-  unified_->follow_water(*flow_, *soil_);
+  unified_->follow_water(*flow_, *soil_, dt);
   meters_.read(*flow_, dt);
   effort_.soil_steps += 1;
   effort_.largest_soil_step = std::max(effort_.largest_soil_step, dt);

@@ -188,7 +188,7 @@ void SoilSolver<D>::advance(double dt) {
   for (Solid& solid : solids_) solid.begin_step(time_, dt, solids_wait_);
   solve_nodes(dt);
   update_points(dt);
-  for (Solid& solid : solids_) solid.move(dt);
+  for (Solid& solid : solids_) solid.book(dt), solid.move(dt);
   time_ += dt;
 }
 

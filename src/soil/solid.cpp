@@ -139,9 +139,12 @@ void Solid::set_impulse(const Vector& impulse, const Vector& moment) {
   spin_ = predicted_spin_ + turning_ * moment;
 }
 
-void Solid::move(double dt) {
+void Solid::book(double dt) {
   impulse_sum_ += impulse_, moment_sum_ += moment_;
   elapsed_ += dt;
+}
+
+void Solid::move(double dt) {
   const Vector angular_momentum = inertia_now_ * spin_;
   const bool turns = spin_.squaredNorm() > 0.0;
   pose_.move({velocity_, spin_}, dt);

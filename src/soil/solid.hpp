@@ -36,7 +36,9 @@ class Solid {
   void begin_step(double time, double dt, bool held);
   /// Velocity with an impulse [N s] and its moment about the centre [N m s] by the soil.
   void set_impulse(const Vector& impulse, const Vector& moment);
-  /// Moves with the present velocity, and books the impulse.
+  /// Books the impulse of a step of dt [s].
+  void book(double dt);
+  /// Moves with the present velocity.
   void move(double dt);
   /// Stands still, until the forces on it or start() move it.
   void stop();

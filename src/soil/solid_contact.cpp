@@ -127,21 +127,17 @@ void SolidContact<D>::complete(FaceVector<D>& field, bool signs) {
 }
 
 /// Mobilities are from the inverse of [M_s + dt b, -dt b; -dt b, M_l + dt b] of
-/// SoilSolver::solve_face.
+/// SoilSolver::solve_face. The faces of closed walls take any impulse and stay where they are.
 template <int D>
-void SolidContact<D>::read_faces(double dt, const NodeField<NodeSums, D>& sums,
-                                 const NodeField<NodeMotion, D>& motion) {
+void SolidContact<D>::read_mobilities(double dt, const NodeField<NodeSums, D>& sums) {
   const double lightest = lightest_face * grid_->cell_volume();
   for (int d = 0; d < D; ++d) {
     const auto u = static_cast<std::size_t>(d);
     for_each_face(d, [&](std::ptrdiff_t at) {
       const NodeSums& node = sums[u].data()[at];
-      const NodeMotion& face = motion[u].data()[at];
       double& mobility = mobility_[d].data()[at];
       double &cross = cross_mobility_[d].data()[at], &slip = slip_mobility_[d].data()[at];
       mobility = -1.0, cross = slip = 0.0;
-      velocity_[d].data()[at] = face.grain_velocity;
-      slip_[d].data()[at] = face.water_velocity - face.grain_velocity;
       if (node.volume < lightest) return;
       const double ms = inertia_ * node.grain_mass, ml = inertia_ * node.water_mass;
       if (ml <= 0.0) {
@@ -154,19 +150,19 @@ void SolidContact<D>::read_faces(double dt, const NodeField<NodeSums, D>& sums,
       slip = (ms + ml) / determinant;
     });
   }
-  hold_walls();
+  for_each_wall_face([&](int axis, const Index<D>& face) {
+    cross_mobility_[axis][face] = slip_mobility_[axis][face] = 0.0;
+    mobility_[axis][face] = std::min(0.0, mobility_[axis][face]);
+  });
   complete(mobility_, false);
 }
 
-/// The faces of closed walls take any impulse and stay where they are.
 template <int D>
-void SolidContact<D>::hold_walls() {
+template <class F>
+void SolidContact<D>::for_each_wall_face(F&& f) const {
   for (int axis = 0; axis < D; ++axis)
-    for_each_face_on_sides(*sides_, box_, axis, [&](int, const SideNode&, const Index<D>& face) {
-      velocity_[axis][face] = slip_[axis][face] = 0.0;
-      cross_mobility_[axis][face] = slip_mobility_[axis][face] = 0.0;
-      mobility_[axis][face] = std::min(0.0, mobility_[axis][face]);
-    });
+    for_each_face_on_sides(*sides_, box_, axis,
+                           [&](int, const SideNode&, const Index<D>& face) { f(axis, face); });
 }
 
 /// Keeps the faces with soil, makes their weights add up to one, and drops contacts without any.
@@ -323,16 +319,18 @@ void SolidContact<D>::spread(std::vector<Solid>& solids) {
                           Eigen::Vector3d(reduced_.data() + 6 * s + 3));
 }
 
+/// Contacts of the step with the impulses that they start with; false when there are none.
 template <int D>
-void SolidContact<D>::apply(double dt, const std::vector<BodyConstants>& constants,
-                            const IndexBox<D>& active, std::vector<Solid>& solids,
-                            std::vector<SoilParticles<D>>& bodies, NodeField<NodeSums, D>& sums,
-                            NodeField<NodeMotion, D>& motion) {
+bool SolidContact<D>::prepare(double dt, const std::vector<BodyConstants>& constants,
+                              const IndexBox<D>& active, std::vector<Solid>& solids,
+                              std::vector<SoilParticles<D>>& bodies,
+                              const NodeField<NodeSums, D>& sums) {
   set_box(solids, active);
   find(dt, constants, solids, bodies);
   for (FaceVector<D>* field : {&force_, &impulse_, &seal_}) clear(*field);
-  if (max_over_ranks(*grid_, contacts_.empty() ? 0.0 : 1.0) == 0.0) return;
-  read_faces(dt, sums, motion);
+  any_ = max_over_ranks(*grid_, contacts_.empty() ? 0.0 : 1.0) > 0.0;
+  if (!any_) return false;
+  read_mobilities(dt, sums);
   keep_faces_with_soil();
   set_stiffness(solids);
   loads_.assign(solids.size(), Load{});
@@ -340,17 +338,76 @@ void SolidContact<D>::apply(double dt, const std::vector<BodyConstants>& constan
     contact.impulse = bounded(contact.impulse, contact);
     give(contact, contact.impulse, contact.seal, solids[contact.solid]);
   }
-  spread(solids);
+  return true;
+}
+
+template <int D>
+void SolidContact<D>::sweep_and_spread(std::vector<Solid>& solids) {
   for (int i = 0; i < sweeps; ++i) {
     sweep(solids);
     spread(solids);
   }
-  write_back(dt, bodies, sums, motion);
 }
 
 template <int D>
-void SolidContact<D>::write_back(double dt, std::vector<SoilParticles<D>>& bodies,
-                                 NodeField<NodeSums, D>& sums, NodeField<NodeMotion, D>& motion) {
+void SolidContact<D>::apply(double dt, const std::vector<BodyConstants>& constants,
+                            const IndexBox<D>& active, std::vector<Solid>& solids,
+                            std::vector<SoilParticles<D>>& bodies, NodeField<NodeSums, D>& sums,
+                            NodeField<NodeMotion, D>& motion) {
+  if (!prepare(dt, constants, active, solids, bodies, sums)) return;
+  for (int d = 0; d < D; ++d)
+    for_each_face(d, [&](std::ptrdiff_t at) {
+      const NodeMotion& face = motion[static_cast<std::size_t>(d)].data()[at];
+      velocity_[d].data()[at] = face.grain_velocity;
+      slip_[d].data()[at] = face.water_velocity - face.grain_velocity;
+    });
+  for_each_wall_face(
+      [&](int axis, const Index<D>& face) { velocity_[axis][face] = slip_[axis][face] = 0.0; });
+  spread(solids);
+  sweep_and_spread(solids);
+  write_back(dt, sums, motion);
+  note_forces(dt, bodies);
+}
+
+template <int D>
+void SolidContact<D>::lean(double dt, const std::vector<BodyConstants>& constants,
+                           const IndexBox<D>& active, std::vector<Solid>& solids,
+                           std::vector<SoilParticles<D>>& bodies, NodeField<NodeSums, D>& sums) {
+  if (!prepare(dt, constants, active, solids, bodies, sums)) return;
+  spread(solids);
+  for (int d = 0; d < D; ++d)
+    for_each_face(d, [&](std::ptrdiff_t at) {
+      const double impulse = total_impulse_[d].data()[at];
+      sums[static_cast<std::size_t>(d)].data()[at].mixture_force += impulse / dt;
+      force_[d].data()[at] = impulse;  // what the velocity of `settle` has already
+    });
+}
+
+template <int D>
+void SolidContact<D>::settle(double dt, std::vector<Solid>& solids,
+                             std::vector<SoilParticles<D>>& bodies, FaceVector<D>& velocity) {
+  if (!any_) return;
+  for (int d = 0; d < D; ++d)
+    for_each_face(d, [&](std::ptrdiff_t at) {
+      velocity_[d].data()[at] = velocity[d].data()[at];
+      slip_[d].data()[at] = 0.0;
+    });
+  for_each_wall_face([&](int axis, const Index<D>& face) { velocity_[axis][face] = 0.0; });
+  complete(velocity_, true);
+  sweep_and_spread(solids);
+  for (int d = 0; d < D; ++d)
+    for_each_face(d, [&](std::ptrdiff_t at) {
+      double& force = force_[d].data()[at];
+      const double impulse = total_impulse_[d].data()[at], rest = impulse - force;
+      velocity[d].data()[at] += std::max(0.0, mobility_[d].data()[at]) * rest;
+      force = impulse / dt;
+    });
+  note_forces(dt, bodies);
+}
+
+template <int D>
+void SolidContact<D>::write_back(double dt, NodeField<NodeSums, D>& sums,
+                                 NodeField<NodeMotion, D>& motion) {
   for (int d = 0; d < D; ++d)
     for_each_face(d, [&](std::ptrdiff_t at) {
       const double impulse = total_impulse_[d].data()[at], seal = total_seal_[d].data()[at];
@@ -364,6 +421,11 @@ void SolidContact<D>::write_back(double dt, std::vector<SoilParticles<D>>& bodie
       sums[static_cast<std::size_t>(d)].data()[at].mixture_force += impulse / dt;
       force_[d].data()[at] = impulse / dt;
     });
+}
+
+/// The impulses wait with the points for the next step.
+template <int D>
+void SolidContact<D>::note_forces(double dt, std::vector<SoilParticles<D>>& bodies) const {
   for (const Contact& contact : contacts_) {
     auto& force = bodies[contact.body].contact_force;
     for (int a = 0; a < D; ++a) force[a][contact.point] += contact.impulse[a] / dt;

@@ -31,6 +31,14 @@ class SolidContact {
   void apply(double dt, const std::vector<BodyConstants>& constants, const IndexBox<D>& active,
              std::vector<Solid>& solids, std::vector<SoilParticles<D>>& bodies,
              NodeField<NodeSums, D>& sums, NodeField<NodeMotion, D>& motion);
+  /// The same in two parts around a solution of faces that knows more than the soil (NUMERICS C2):
+  /// `lean` adds the impulses that the contacts start with to the forces in the sums, `settle` what
+  /// they lack to the velocity that came out [m/s]; soil without pore water of its own. Collective.
+  void lean(double dt, const std::vector<BodyConstants>& constants, const IndexBox<D>& active,
+            std::vector<Solid>& solids, std::vector<SoilParticles<D>>& bodies,
+            NodeField<NodeSums, D>& sums);
+  void settle(double dt, std::vector<Solid>& solids, std::vector<SoilParticles<D>>& bodies,
+              FaceVector<D>& velocity);
   /// Mean force of the bodies on a face in the last step [N].
   double force(int axis, std::ptrdiff_t at) const { return force_[axis].data()[at]; }
 
@@ -63,9 +71,13 @@ class SolidContact {
             const std::vector<Solid>& solids, std::vector<SoilParticles<D>>& bodies);
   bool touch(double dt, const Solid& solid, const SoilParticles<D>& points, Contact& contact) const;
   void list_nodes(const Vec<D>& position, Contact& contact);
-  void read_faces(double dt, const NodeField<NodeSums, D>& sums,
-                  const NodeField<NodeMotion, D>& motion);
-  void hold_walls();
+  bool prepare(double dt, const std::vector<BodyConstants>& constants, const IndexBox<D>& active,
+               std::vector<Solid>& solids, std::vector<SoilParticles<D>>& bodies,
+               const NodeField<NodeSums, D>& sums);
+  void read_mobilities(double dt, const NodeField<NodeSums, D>& sums);
+  void sweep_and_spread(std::vector<Solid>& solids);
+  template <class F>
+  void for_each_wall_face(F&& f) const;
   void keep_faces_with_soil();
   void set_stiffness(const std::vector<Solid>& solids);
   double largest_sum(const FaceVector<D>& field, const Contact& contact) const;
@@ -73,8 +85,8 @@ class SolidContact {
   Vec<D> at_contact(const FaceVector<D>& field, const Contact& contact) const;
   void give(const Contact& contact, const Vec<D>& impulse, double seal, const Solid& solid);
   void spread(std::vector<Solid>& solids);
-  void write_back(double dt, std::vector<SoilParticles<D>>& bodies, NodeField<NodeSums, D>& sums,
-                  NodeField<NodeMotion, D>& motion);
+  void write_back(double dt, NodeField<NodeSums, D>& sums, NodeField<NodeMotion, D>& motion);
+  void note_forces(double dt, std::vector<SoilParticles<D>>& bodies) const;
   void clear(FaceVector<D>& field);
   void gather_sums(FaceVector<D>& field, bool signs);
   void complete(FaceVector<D>& field, bool signs);
@@ -90,6 +102,7 @@ class SolidContact {
   bool exchanges_, wet_;  ///< ghosts; pore water
   Halo<D> halo_;
   IndexBox<D> box_{};  ///< faces that contacts may reach
+  bool any_ = false;   ///< contacts on any rank
   std::vector<Contact> contacts_;
   std::vector<Node> nodes_;
   std::vector<Load> loads_;  ///< on the bodies by this rank's contacts

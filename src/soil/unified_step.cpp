@@ -18,6 +18,7 @@ void SoilSolver<D>::move_with(const FaceVector<D>& velocity, const FaceVector<D>
   mirror_motion(sides_, active_, sums_, motion_);
   if (exchanges_halos(*grid_)) halo_.exchange(as_doubles<NodeMotion, D>(motion_), node_motions);
   update_points(dt);
+  for (Solid& solid : solids_) solid.begin_step(time_, dt, false), solid.move(dt);
   time_ += dt;
   settle_sums();
   redistribute();
@@ -29,11 +30,24 @@ const NodeField<NodeSums, D>& SoilSolver<D>::load_faces(double dt) {
   surface_.begin_step(time_, dt, nullptr, active_);
   sides_.update(time_, dt);
   gather_nodes();
+  if (solid_contact_) {
+    for (Solid& solid : solids_) solid.begin_step(time_, dt, false);
+    solid_contact_->lean(dt, constants_, active_, solids_, points_, sums_);
+  }
   return sums_;
+}
+
+template <int D>
+void SoilSolver<D>::press_solids(FaceVector<D>& velocity, double dt) {
+  if (!solid_contact_) return;
+  solid_contact_->settle(dt, solids_, points_, velocity);
+  for (Solid& solid : solids_) solid.begin_outer_step(), solid.book(dt);
 }
 
 template void SoilSolver<2>::move_with(const FaceVector<2>&, const FaceVector<2>&, double);
 template void SoilSolver<3>::move_with(const FaceVector<3>&, const FaceVector<3>&, double);
+template void SoilSolver<2>::press_solids(FaceVector<2>&, double);
+template void SoilSolver<3>::press_solids(FaceVector<3>&, double);
 template const NodeField<NodeSums, 2>& SoilSolver<2>::load_faces(double);
 template const NodeField<NodeSums, 3>& SoilSolver<3>::load_faces(double);
 

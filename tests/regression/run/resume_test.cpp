@@ -80,6 +80,9 @@ TEST_F(Resume, AfterKillsGivesTheSameBitsOfACoupledRunIn3D) {
 TEST_F(Resume, AfterKillsGivesTheSameBitsOfARunWithOneWater) {
   kill_and_resume("one_water_2d", 2, 2, 8);
 }
+TEST_F(Resume, AfterKillsGivesTheSameBitsOfABodyInOneWater) {
+  kill_and_resume("one_water_solid_2d", 2, 2, 9);
+}
 TEST_F(Resume, AfterKillsGivesTheSameBitsOfSoilAlone) { kill_and_resume("soil_3d", 1, 3, 4); }
 TEST_F(Resume, AfterKillsGivesTheSameBitsOfSplitPoints) { kill_and_resume("drawn", 2, 2, 6); }
 /// On one rank: the direct solver of implicit steps sums up what other ranks send as it arrives.
