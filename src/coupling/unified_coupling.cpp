@@ -32,7 +32,8 @@ void UnifiedCoupling<D>::map_soil_to_grid(SoilSolver<D>& soil, const PorousMediu
   room_.find(soil, fixed, medium);
   for (int a = 0; a < D; ++a)
     room_.for_each_inner_face(a, [&](const Index<D>& face) {
-      grains_.resistance[a][face] = room_.resistance_at(a, face);
+      const double open = medium.space.aperture[a][face];  // only there water resists
+      grains_.resistance[a][face] = open > 0.0 ? room_.resistance_at(a, face) / open : 0.0;
     });
 }
 
@@ -71,8 +72,7 @@ void UnifiedCoupling<D>::load_grains(const Space<D>& space, SoilSolver<D>& soil,
 }
 
 /// On the part of a face that lies in a body grains share no flux with the water, only its
-/// pressure: that of the last step, continued into the body. At rest they so keep their weight
-/// under water. What resists the water does so in the open part of the face.
+/// pressure: that of the last step, continued into the body. So they keep their weight under water.
 template <int D>
 void UnifiedCoupling<D>::push_beside_solids(const Space<D>& space) {
   for (int a = 0; a < D; ++a) {
@@ -84,7 +84,6 @@ void UnifiedCoupling<D>::push_beside_solids(const Space<D>& space) {
       const double gradient = (pressure_[face] - pressure_[face.shifted(a, -1)]) * per_length;
       grains_.force[a][face] -= (1.0 - open) * share * gradient;
       share *= open;
-      if (open > 0.0) grains_.resistance[a][face] /= open;
     });
   }
 }
