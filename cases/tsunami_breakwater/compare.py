@@ -45,16 +45,10 @@ def design_force(sea, harbour):
     return 0.5 * (front_bottom + front_crest) * height - 0.5 * 0.9 * WEIGHT * (harbour - BOTTOM) ** 2
 
 
-def only(columns, start):
-    """The column of a gauge whose name begins so."""
-    return next(values for name, values in columns.items() if name.startswith(start))
-
-
 def check_force(results, findings, axis):
     force = results.gauge("caisson force")
-    time, along, up = force["time"], only(force, "force x"), only(force, "force z")
-    sea = only(results.gauge("sea level"), "water level")
-    harbour = only(results.gauge("harbour level"), "water level")
+    time, along, up = force.time, force["force x"], force["force z"]
+    sea, harbour = (results.gauge(name)["water level"] for name in ("sea level", "harbour level"))
     design = design_force(sea, harbour)
     late = time >= 0.5
     error = abs(along[late].mean() / design[late].mean() - 1) * 100
@@ -83,11 +77,11 @@ def check_conservation(folder, findings):
 
 
 def tell_head(results):
-    through = only(results.gauge("through the gap"), "discharge")
+    through = results.gauge("through the gap")["discharge"]
     over = results.gauge("overflow")
-    push = only(results.gauge("caisson force"), "force x")
-    late = over["time"] >= 0.5
-    print(f"head: {only(over, 'discharge')[late].mean():.3f} m3/s over the caisson, {through[late].mean():.3f} m3/s past its "
+    push = results.gauge("caisson force")["force x"]
+    late = over.time >= 0.5
+    print(f"head: {over['discharge'][late].mean():.3f} m3/s over the caisson, {through[late].mean():.3f} m3/s past its "
           f"head; force per metre of its length {push[late].mean() / LENGTH:.0f} N/m")
     moved = results.points()
     far = np.linalg.norm(moved["displacement"], axis=1)
