@@ -17,6 +17,7 @@ UnifiedCoupling<D>::UnifiedCoupling(const Grid<D>& grid, const SoilSolver<D>& so
       halo_(grid),
       grain_density_(soil.options().bodies.front().grain_density),
       room_(grid),
+      drag_(grid, soil.options()),
       pressure_(grid, "pressure", "Pa"),
       open_(grid, "open", "1"),
       wet_(grid, "wet", "1"),
@@ -30,6 +31,7 @@ template <int D>
 void UnifiedCoupling<D>::map_soil_to_grid(SoilSolver<D>& soil, const PorousMedium<D>& fixed,
                                           PorousMedium<D>& medium) {
   room_.find(soil, fixed, medium);
+  if (drag_.active()) return;
   for (int a = 0; a < D; ++a)
     room_.for_each_inner_face(a, [&](const Index<D>& face) {
       const double open = medium.space.aperture[a][face];  // only there water resists
@@ -46,7 +48,8 @@ void UnifiedCoupling<D>::move_grains(SoilSolver<D>& soil, double dt) {
 /// face, not one minus the cells' porosity: then grains at rest in water at rest weigh exactly what
 /// they weigh under water, wherever the points stand (docs/decisions/0070).
 template <int D>
-void UnifiedCoupling<D>::load_grains(const Space<D>& space, SoilSolver<D>& soil, double dt) {
+void UnifiedCoupling<D>::load_grains(const FlowSolver<D>& flow, const Space<D>& space,
+                                     SoilSolver<D>& soil, double dt) {
   const NodeField<NodeSums, D>& sums = soil.load_faces(dt);
   const double per_volume = 1.0 / grid_->cell_volume();
   for (int a = 0; a < D; ++a) {
@@ -69,6 +72,7 @@ void UnifiedCoupling<D>::load_grains(const Space<D>& space, SoilSolver<D>& soil,
   for (FaceVector<D>* field : {&grains_.share, &grains_.inertia, &grains_.force, &grains_.velocity})
     for (int a = 0; a < D; ++a) fields[number++] = (*field)[a].data();
   halo_.exchange(fields);
+  if (drag_.active()) drag_.find(room_, space, flow.velocity(), grains_);
 }
 
 /// On the part of a face that lies in a body grains share no flux with the water, only its
@@ -139,7 +143,7 @@ template <int D>
 void UnifiedCoupling<D>::initialise(const FlowSolver<D>& flow, const Space<D>& space,
                                     SoilSolver<D>& soil) {
   note_pore_pressure(flow, soil);
-  load_grains(space, soil, 1.0);
+  load_grains(flow, space, soil, 1.0);
   change_.fill(0.0);
 }
 

@@ -9,6 +9,7 @@
 ///   4. the flow moves its water, and solves the momentum of water and grains with the pressure
 ///      that makes the flux of the two together free of divergence (flow/moving_grains.hpp);
 ///   5. the grains' velocities wait for the next step (`follow_water`).
+#include "coupling/grain_drag.hpp"
 #include "coupling/pressure_extension.hpp"
 #include "coupling/soil_in_water.hpp"
 #include "flow/flow_solver.hpp"
@@ -29,7 +30,8 @@ class UnifiedCoupling {
 
   void map_soil_to_grid(SoilSolver<D>& soil, const PorousMedium<D>& fixed, PorousMedium<D>& medium);
   void move_grains(SoilSolver<D>& soil, double dt);
-  void load_grains(const Space<D>& space, SoilSolver<D>& soil, double dt);
+  void load_grains(const FlowSolver<D>& flow, const Space<D>& space, SoilSolver<D>& soil,
+                   double dt);
   void follow_water(const FlowSolver<D>& flow, SoilSolver<D>& soil, double dt);
 
   MovingGrains<D>& grains() { return grains_; }
@@ -50,6 +52,7 @@ class UnifiedCoupling {
   Halo<D> halo_;
   double grain_density_;
   SoilInWater<D> room_;
+  GrainDrag<D> drag_;
   CellField<D> pressure_;  ///< of the water, continued into bodies and behind closed sides [Pa]
   std::optional<PressureExtension<D>> extension_;  ///< where there are bodies
   CellField<D> open_, wet_;                        ///< cells that are no body; with water

@@ -82,6 +82,12 @@ void check_unified(Section& root, CaseOptions& options) {
                       "and soil \"{}\" has {:g} kg/m3, soil \"{}\" {:g} kg/m3",
                       body.name, body.grain_density, bodies.front().name,
                       bodies.front().grain_density));
+  for (const SoilBody& body : bodies)
+    if (body.grain_diameter != bodies.front().grain_diameter)
+      report.add(root.place("soil"),
+                 fmt::format("with coupling.mode = \"unified\" all soils have one grain_diameter, "
+                             "or none has any, and soil \"{}\" differs from soil \"{}\"",
+                             body.name, bodies.front().name));
   if (options.flow)
     for (const WaterBody& water : options.flow->bodies)
       options.soil->flooded.push_back(water.shape);

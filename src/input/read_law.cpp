@@ -50,7 +50,7 @@ double read_poisson_ratio(Section& section) {
                          .cure = "Sand is usually 0.2-0.35."});
 }
 
-void read_law(Section& soil, SoilBody& body) {
+void read_law(Section& soil, double water_viscosity, SoilBody& body) {
   Section section = soil.table("law", Record::Form::block, true);
   if (!soil.has("law")) return;
   const Report& report = section.reading().report;
@@ -62,6 +62,7 @@ void read_law(Section& soil, SoilBody& body) {
                                  {"modified-cam-clay", &read_modified_cam_clay},
                                  {"mohr-coulomb", &read_mohr_coulomb},
                                  {"mu-i", &read_mu_i},
+                                 {"mu-j", &read_mu_j},
                                  {"newtonian", &read_newtonian},
                                  {"sanisand", &read_sanisand},
                                  {"sekiguchi-ohta", &read_sekiguchi_ohta},
@@ -75,6 +76,10 @@ void read_law(Section& soil, SoilBody& body) {
   if (const auto* law = std::get_if<SanisandOptions>(&body.law))
     check_settled_void_ratio(section, body.porosity, *law);
   if (auto* law = std::get_if<MuIOptions>(&body.law)) law->grain_density = body.grain_density;
+  if (auto* law = std::get_if<MuJOptions>(&body.law)) {
+    law->grain_density = body.grain_density;
+    law->liquid_viscosity = water_viscosity;
+  }
   const bool good = report.size() == before;
   const bool yields = good && reader && make_soil_model(body.law)->yields();
   body.strain = read_strain(

@@ -127,6 +127,29 @@ void read_formulation(Section& section, const WaterProperties& water, SoilOption
   }
 }
 
+/// Of pore water and grains: by permeability, or by the diameter of the grains.
+void read_drag(Section& section, SoilBody& body, const WaterProperties& water) {
+  if (!section.has("grain_diameter")) {
+    body.intrinsic_permeability = read_permeability(section, water.density, water.viscosity,
+                                                    body.pore_water != PoreWater::none)
+                                      .value_or(0.0);
+    return;
+  }
+  if (body.pore_water != PoreWater::unified)
+    section.fail("grain_diameter", "drag by the size of grains needs pore_water = \"unified\"",
+                 "Write hydraulic_conductivity, or intrinsic_permeability.");
+  for (const char* key : {"hydraulic_conductivity", "intrinsic_permeability"})
+    section.forbid(key, "grain_diameter says how the grains resist");
+  body.grain_diameter = section.number("grain_diameter", quantity::length,
+                                       positive("a diameter lies above 0", "Sand has 0.1-2 mm."));
+  const double grains = 1.0 - body.porosity;
+  body.intrinsic_permeability = body.porosity * body.porosity * body.porosity *
+                                body.grain_diameter * body.grain_diameter /
+                                (150.0 * grains * grains);
+  section.record().remark(
+      fmt::format("intrinsic_permeability = {:.6g} m2 at the start", body.intrinsic_permeability));
+}
+
 void read_pore_water(Section& section, SoilBody& body, const WaterProperties& water,
                      SoilOptions& soil) {
   body.pore_water = section.choice<PoreWater>("pore_water",
@@ -141,8 +164,7 @@ void read_pore_water(Section& section, SoilBody& body, const WaterProperties& wa
   else
     section.forbid("formulation", unified ? "pore_water = \"unified\" has one: that of the flow"
                                           : "pore_water = \"none\" has no pore water to formulate");
-  body.intrinsic_permeability =
-      read_permeability(section, water.density, water.viscosity, wet || unified).value_or(0.0);
+  read_drag(section, body, water);
   body.permeability_law = section.choice<PermeabilityLaw>(
       "permeability_law",
       {{"constant", PermeabilityLaw::constant}, {"kozeny-carman", PermeabilityLaw::kozeny_carman}},
@@ -196,7 +218,7 @@ void read_soil(Section& root, CaseOptions& options, const WaterProperties& water
     read_pore_water(section, body, water, soil);
     read_initial_stress(section, body);
     body.initial_velocity = section.varying_per_axis("initial_velocity", quantity::velocity);
-    read_law(section, body);
+    read_law(section, water.viscosity, body);
     section.finish();
     if (shape) {
       body.shape = *shape;

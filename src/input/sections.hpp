@@ -47,8 +47,8 @@ TurbulenceOptions read_turbulence(Section& water);
 void read_porous(Section& root, CaseOptions& options, std::vector<NamedShape>& grounds);
 void read_soil(Section& root, CaseOptions& options, const WaterProperties& water,
                const std::vector<Stage>& stages, std::vector<NamedShape>& grounds);
-/// law = { ... } and the strain measure that goes with it.
-void read_law(Section& soil, SoilBody& body);
+/// law = { ... } and the strain measure that goes with it; the water's viscosity in Pa s.
+void read_law(Section& soil, double water_viscosity, SoilBody& body);
 /// Keys that several laws share.
 double read_young_modulus(Section& section);  ///< [Pa]
 double read_poisson_ratio(Section& section);  ///< [-]
@@ -59,6 +59,7 @@ SoilLawOptions read_von_mises(Section& law);
 SoilLawOptions read_drucker_prager(Section& law);
 /// Laws of flow; the grain density of the body is set afterwards.
 SoilLawOptions read_mu_i(Section& law);
+SoilLawOptions read_mu_j(Section& law);
 SoilLawOptions read_newtonian(Section& law);
 /// Laws that know void ratio and critical state.
 SoilLawOptions read_modified_cam_clay(Section& law);

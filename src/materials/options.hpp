@@ -91,6 +91,21 @@ struct MuIOptions {
   double grain_density = 2650.0;      ///< rho_s [kg/m3]
 };
 
+/// mu(J), grains in a liquid; the defaults are glass beads (Boyer, Guazzelli & Pouliquen 2011;
+/// Pailha & Pouliquen 2009).
+struct MuJOptions {
+  double young_modulus = 0.0;           ///< [Pa], of the grains' skeleton
+  double poisson_ratio = 0.0;           ///< [-]
+  double static_friction = 0.32;        ///< mu_1 [-]
+  double limiting_friction = 0.7;       ///< mu_2 [-]
+  double viscous_number = 0.005;        ///< J_0 [-]
+  double critical_fraction = 0.585;     ///< phi_m, share of grains that slow shear tends to [-]
+  double dilatancy_coefficient = 4.09;  ///< K [-]
+  double grain_diameter = 0.0;          ///< d [m]
+  double grain_density = 2650.0;        ///< rho_s [kg/m3]
+  double liquid_viscosity = 1.002e-3;   ///< eta [Pa s]
+};
+
 struct NewtonianOptions {
   double bulk_modulus = 0.0;    ///< K [Pa]
   double viscosity = 0.0;       ///< mu [Pa s]
@@ -98,7 +113,7 @@ struct NewtonianOptions {
 };
 using SoilLawOptions =
     std::variant<LinearElasticOptions, MohrCoulombOptions, TrescaOptions, VonMisesOptions,
-                 DruckerPragerOptions, MuIOptions, NewtonianOptions, ModifiedCamClayOptions,
-                 SekiguchiOhtaOptions, SanisandOptions, UmatOptions>;
+                 DruckerPragerOptions, MuIOptions, MuJOptions, NewtonianOptions,
+                 ModifiedCamClayOptions, SekiguchiOhtaOptions, SanisandOptions, UmatOptions>;
 
 }  // namespace mudlark

@@ -5,6 +5,7 @@
 #include "materials/modified_cam_clay.hpp"
 #include "materials/mohr_coulomb.hpp"
 #include "materials/mu_i.hpp"
+#include "materials/mu_j.hpp"
 #include "materials/newtonian.hpp"
 #include "materials/sanisand.hpp"
 #include "materials/sekiguchi_ohta.hpp"
@@ -45,6 +46,9 @@ struct Maker {
   }
   std::unique_ptr<SoilModel> operator()(const MuIOptions& options) const {
     return std::make_unique<MuI>(options);
+  }
+  std::unique_ptr<SoilModel> operator()(const MuJOptions& options) const {
+    return std::make_unique<MuJ>(options);
   }
   std::unique_ptr<SoilModel> operator()(const NewtonianOptions& options) const {
     return std::make_unique<Newtonian>(options);

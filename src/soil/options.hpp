@@ -36,6 +36,9 @@ struct SoilBody {
   double porosity = 0.4;          ///< [-], initial
   PoreWater pore_water = PoreWater::two_phase;
   double intrinsic_permeability = 0.0;  ///< kappa [m2], initial
+  /// d [m], with one water: the drag of the grains is that of their size, from a bed to a cloud; 0:
+  /// that of the permeability.
+  double grain_diameter = 0.0;
   PermeabilityLaw permeability_law = PermeabilityLaw::constant;
   int points_per_cell = 4;  ///< total per full cell; a D-th power (4, 9, 16 in 2D; 8, 27, 64 in 3D)
   SoilLawOptions law;
