@@ -1,6 +1,7 @@
 #include "numerics/interface_advection.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "numerics/loops.hpp"
@@ -23,6 +24,25 @@ InterfaceAdvection<D>::InterfaceAdvection(const Grid<D>& grid)
   for (int a = 0; a < D; ++a) strides_[static_cast<std::size_t>(a)] = grid.stride(a);
 }
 
+namespace {
+
+/// Each order is followed by its reverse, so no axis is preferred; x and z take turns as in the
+/// plane, so space one cell thick is the plane.
+template <int D>
+std::array<int, D> axes_in_order(std::int64_t step) {
+  std::array<int, D> axes;
+  if constexpr (D == 2) {
+    axes = {0, 1};
+  } else {
+    constexpr std::array<std::array<int, 3>, 3> forwards{{{0, 1, 2}, {1, 0, 2}, {0, 2, 1}}};
+    axes = forwards[static_cast<std::size_t>(step / 2 % 3)];
+  }
+  if (step % 2 == 1) std::reverse(axes.begin(), axes.end());
+  return axes;
+}
+
+}  // namespace
+
 template <int D>
 Plane<D> InterfaceAdvection<D>::plane(const double* alpha, std::ptrdiff_t at) const {
   return plane_of_volume<D>(interface_normal<D>(alpha + at, strides_.data()), alpha[at]);
@@ -40,13 +60,8 @@ void InterfaceAdvection<D>::sweep(CellField<D>& water, const CellField<D>& poros
   for_each_offset(*grid_, grid_->owned(),
                   [&](std::ptrdiff_t at) { c[at] = dilates(w[at], theta[at]) ? 1.0 : 0.0; });
   if (spray == Spray::mixed) find_spray(water, porosity);
-  // Three cyclic orders, then the same three backwards: no axis is preferred.
-  const int first = static_cast<int>(order % D);
-  const bool backwards = (order / D) % 2 == 1;
-  for (int k = 0; k < D; ++k) {
-    const int axis = (first + (backwards ? D - k : k)) % D;
+  for (const int axis : axes_in_order<D>(order))
     sweep_axis(water, porosity, flux[axis], axis, dt, walls);
-  }
 }
 
 template <int D>
@@ -96,9 +111,11 @@ void InterfaceAdvection<D>::find_spray(const CellField<D>& water, const CellFiel
   double* mixed = mixed_.data();
   for_each_offset(*grid_, grid_->owned().grown(1), [&](std::ptrdiff_t at) {
     bool alone = true;
-    for (int a = 0; a < D; ++a)
+    for (int a = 0; a < D; ++a) {
+      if (grid_->cells()[a] == 1) continue;  // there it would meet its own images only
       for (const std::ptrdiff_t other : {at - grid_->stride(a), at + grid_->stride(a)})
         alone = alone && !dilates(w[other], theta[other]);
+    }
     mixed[at] = alone ? 1.0 : 0.0;
   });
 }
