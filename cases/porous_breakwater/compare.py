@@ -22,6 +22,7 @@ import matplotlib  # noqa: E402
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
+from mudlark import reflection  # noqa: E402
 from mudlark.results import Results  # noqa: E402
 
 GRAVITY, DEPTH, PERIOD, WIDTH = 9.81, 0.4, 2.0, 0.6
@@ -69,24 +70,14 @@ def theory(height, long_waves):
     return abs(reflected), abs(transmitted)
 
 
-def first_harmonic(time, level):
-    columns = [np.ones_like(time)]
-    for order in (1, 2, 3):
-        columns += [np.cos(order * RATE * time), np.sin(order * RATE * time)]
-    fit = np.linalg.lstsq(np.column_stack(columns), level, rcond=None)[0]
-    return fit[1] + 1j * fit[2]
-
-
 def both_ways(results, side, number):
     """Amplitudes of the waves to the right and to the left at three gauges (Mansard & Funke 1980)."""
     amplitudes = []
     for place in range(3):
         gauge = results.gauge(f"{side} {place + 1}")
         late = gauge.time >= FROM - 1e-9
-        amplitudes.append(first_harmonic(gauge.time[late], gauge["water level"][late]))
-    places = np.array(PLACES[side])
-    matrix = np.column_stack([np.exp(1j * number * places), np.exp(-1j * number * places)])
-    return np.abs(np.linalg.lstsq(matrix, np.array(amplitudes), rcond=None)[0])
+        amplitudes.append(reflection.harmonic(gauge.time[late], gauge["water level"][late], PERIOD))
+    return np.abs(reflection.split(np.array(amplitudes), np.array(PLACES[side]), number)[:2])
 
 
 def main():

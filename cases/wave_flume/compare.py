@@ -22,30 +22,12 @@ import matplotlib  # noqa: E402
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
+from mudlark import reflection  # noqa: E402
 from mudlark.results import Results  # noqa: E402
 
 LENGTH, PERIOD, HEIGHT, CREST, STILL = 4.11981, 2.0, 0.1, 0.058968, 0.5
 FROM = 20.0  # [s]; whole periods until the end
 TOLERANCES = {"height": 0.03, "phase": 4.0, "reflection": 0.05}
-
-
-def harmonics(time, level):
-    """Mean and complex amplitudes of the first three harmonics, least squares."""
-    rate = 2 * np.pi / PERIOD
-    columns = [np.ones_like(time)]
-    for order in (1, 2, 3):
-        columns += [np.cos(order * rate * time), np.sin(order * rate * time)]
-    fit = np.linalg.lstsq(np.column_stack(columns), level, rcond=None)[0]
-    return fit[0], fit[1::2] + 1j * fit[2::2]
-
-
-def reflection(places, amplitudes):
-    """Share of the first harmonic that travels back: least squares over all gauges (Mansard & Funke 1980)."""
-    k = 2 * np.pi / LENGTH
-    # level = Re(sum of a exp(-i (wt - ks)) and b exp(-i (wt + ks))); harmonics() gives conjugates of the sum
-    matrix = np.column_stack([np.exp(1j * k * places), np.exp(-1j * k * places)])
-    forth, back = np.linalg.lstsq(matrix, amplitudes, rcond=None)[0]
-    return abs(back) / abs(forth)
 
 
 def main():
@@ -66,8 +48,9 @@ def main():
         # A level is that of the column of cells that a gauge stands in: at its middle.
         place = (np.floor(stands[name] / cell + 1e-9) + 0.5) * cell
         late = gauge.time >= FROM - 1e-9
-        mean, amplitudes = harmonics(gauge.time[late], level[late])
-        phase = np.degrees(np.angle(amplitudes[0] * np.exp(-2j * np.pi * place / LENGTH)))
+        mean = level[late][:-1].mean()  # whole periods
+        amplitude = reflection.harmonic(gauge.time[late], level[late], PERIOD)
+        phase = np.degrees(np.angle(amplitude * np.exp(-2j * np.pi * place / LENGTH)))
         periods = (gauge.time[late] - FROM) // PERIOD
         heights = [np.ptp(level[late][periods == n]) for n in range(int(periods.max()))]
         height = np.mean(heights) / HEIGHT - 1
@@ -75,12 +58,13 @@ def main():
               f"phase {phase:+.1f} degrees, mean level {1e3 * mean:+.1f} mm")
         good &= abs(height) <= TOLERANCES["height"] and abs(phase) <= TOLERANCES["phase"]
         places.append(place)
-        first.append(amplitudes[0])
+        first.append(amplitude)
         panel.plot(gauge.time, level, color="tab:blue", lw=1)
         for bound in (CREST, CREST - HEIGHT):
             panel.axhline(bound, color="black", lw=0.6, ls="--")
         panel.set(title=name, ylabel="level [m]")
-    back = reflection(np.array(places), np.array(first))
+    forth, back, _ = reflection.split(np.array(first), np.array(places), 2 * np.pi / LENGTH)
+    back = abs(back) / abs(forth)
     good &= back <= TOLERANCES["reflection"]
     print(f"  reflected by the beach: {100 * back:.1f} % of the wave")
     axes[-1].set_xlabel("time [s]")

@@ -79,25 +79,33 @@ namespace {
 
 /// What one rank knows of a column between its lowest and highest cell.
 struct ColumnPiece {
-  double ground = 0.0;   ///< top of its highest ground [m]; NaN: none
+  double ground = 0.0;   ///< its highest ground, mean over the column [m]; NaN: none
   double depth = 0.0;    ///< of the water on that ground, or on the piece's lower end [m]
   double through = 0.0;  ///< 1: that water reaches the piece's upper end
+  double raised = 0.0;   ///< by what bodies take of the wet cells on the piece's lower end [m]
 };
 
+/// A cell that a body cuts holds the body's surface: what the body takes of it lies below the water
+/// if the cell below is closed; over wet cells (a steep wall) its level is its saturation.
 template <int D>
 ColumnPiece read_piece(const Grid<D>& grid, const CellField<D>& saturation,
-                       const CellField<D>& porosity, Index<D> cell) {
+                       const PorousMedium<D>& medium, Index<D> cell) {
   constexpr int up = D - 1;
-  ColumnPiece piece{std::numeric_limits<double>::quiet_NaN(), 0.0, 1.0};
+  const CellField<D>& room = medium.space.volume;
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  ColumnPiece piece{none, 0.0, 1.0, 0.0};
   if (grid.owned().lower[up] == 0) piece.ground = grid.lower()[up];
   for (cell[up] = grid.owned().lower[up]; cell[up] < grid.owned().upper[up]; ++cell[up]) {
     double size = 1.0;  // of the cell over that of a mean one, as its capacity counts
     for (int a = 0; a < D; ++a) size *= grid.width(a, cell[a]) / grid.spacing()[a];
-    if (porosity[cell] < (1.0 - 1e-6) * size)
-      piece = {grid.face_position(up, cell[up] + 1), 0.0, 1.0};
-    else if (piece.through > 0.0) {
-      const double alpha = std::clamp(saturation[cell], 0.0, 1.0);
-      piece.depth += alpha * grid.width(up, cell[up]);
+    if (room[cell] == 0.0 || medium.porosity[cell] < 1.0 - 1e-6) {
+      piece = {grid.face_position(up, cell[up] + 1), 0.0, 1.0, 0.0};
+    } else if (piece.through > 0.0) {
+      const double alpha = std::clamp(saturation[cell], 0.0, 1.0), h = grid.width(up, cell[up]);
+      const double open = room[cell] / size;
+      const bool on_ground = cell[up] == 0 || room[cell.shifted(up, -1)] == 0.0;
+      piece.raised += (on_ground ? 1.0 : alpha) * (1.0 - open) * h;
+      piece.depth += alpha * open * h;
       piece.through = alpha >= 0.5 ? 1.0 : 0.0;
     }
   }
@@ -107,20 +115,24 @@ ColumnPiece read_piece(const Grid<D>& grid, const CellField<D>& saturation,
 /// Surface of the water on the ground of a column from its pieces, the lowest first; NaN when it is
 /// thinner than asked for.
 double surface_of(const ColumnPiece* pieces, int count, double thickness) {
-  double ground = pieces[0].ground, depth = pieces[0].depth, through = pieces[0].through;
+  ColumnPiece column = pieces[0];
   for (int p = 1; p < count; ++p) {
-    if (!std::isnan(pieces[p].ground))
-      ground = pieces[p].ground, depth = pieces[p].depth, through = pieces[p].through;
-    else if (through > 0.0)
-      depth += pieces[p].depth, through = pieces[p].through;
+    const ColumnPiece& next = pieces[p];
+    if (!std::isnan(next.ground)) {
+      column = next;
+    } else if (column.through > 0.0) {
+      column.depth += next.depth, column.raised += next.raised;
+      column.through = next.through;
+    }
   }
-  return depth >= thickness ? ground + depth : std::numeric_limits<double>::quiet_NaN();
+  return column.depth >= thickness ? column.ground + column.raised + column.depth
+                                   : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace
 
 template <int D>
-double run_up(const Grid<D>& grid, const CellField<D>& saturation, const CellField<D>& porosity,
+double run_up(const Grid<D>& grid, const CellField<D>& saturation, const PorousMedium<D>& medium,
               const RunUpRange<D>& range) {
   constexpr int up = D - 1;
   IndexBox<D> columns = grid.global();
@@ -150,10 +162,10 @@ double run_up(const Grid<D>& grid, const CellField<D>& saturation, const CellFie
       number = number * static_cast<std::size_t>(columns.upper[a] - columns.lower[a]) +
                static_cast<std::size_t>(column[a] - columns.lower[a]);
     mine[number * static_cast<std::size_t>(high) + static_cast<std::size_t>(place)] =
-        read_piece(grid, saturation, porosity, column);
+        read_piece(grid, saturation, medium, column);
   });
   // Each piece has one rank; the others add zeros.
-  MPI_Allreduce(mine.data(), all.data(), static_cast<int>(3 * mine.size()), MPI_DOUBLE, MPI_SUM,
+  MPI_Allreduce(mine.data(), all.data(), static_cast<int>(4 * mine.size()), MPI_DOUBLE, MPI_SUM,
                 grid.comm());
   double highest = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t n = 0; n < wide; ++n)
@@ -212,9 +224,9 @@ template double own_water_through(const Grid<2>&, const FaceVector<2>&, const Fl
 template double own_water_through(const Grid<3>&, const FaceVector<3>&, const FlowSection<3>&);
 template std::vector<double> surfaces_over(const Grid<2>&, const CellField<2>&, const Vec<2>&);
 template std::vector<double> surfaces_over(const Grid<3>&, const CellField<3>&, const Vec<3>&);
-template double run_up(const Grid<2>&, const CellField<2>&, const CellField<2>&,
+template double run_up(const Grid<2>&, const CellField<2>&, const PorousMedium<2>&,
                        const RunUpRange<2>&);
-template double run_up(const Grid<3>&, const CellField<3>&, const CellField<3>&,
+template double run_up(const Grid<3>&, const CellField<3>&, const PorousMedium<3>&,
                        const RunUpRange<3>&);
 template double potential_energy(const Grid<2>&, const CellField<2>&, const CellField<2>&, double);
 template double potential_energy(const Grid<3>&, const CellField<3>&, const CellField<3>&, double);

@@ -3,6 +3,7 @@
 /// place, run-up, energy. All are collective and the same on all ranks.
 #include <vector>
 
+#include "flow/porous_medium.hpp"
 #include "grid/field.hpp"
 #include "grid/halo.hpp"
 
@@ -39,10 +40,11 @@ struct RunUpRange {
 };
 
 /// Highest water surface among the columns in which water stands at least `thickness` deep on the
-/// ground: on its topmost cell with porosity below 1, or on the domain's bottom. Water above a gap
-/// (spray, an overturning crest) does not count. NaN where all is dry [m].
+/// ground: on its topmost cell with grains, on the mean surface of a body in the column, or on the
+/// domain's bottom. Water above a gap (spray, an overturning crest) does not count. NaN where all
+/// is dry [m].
 template <int D>
-double run_up(const Grid<D>& grid, const CellField<D>& saturation, const CellField<D>& porosity,
+double run_up(const Grid<D>& grid, const CellField<D>& saturation, const PorousMedium<D>& medium,
               const RunUpRange<D>& range);
 
 /// rho |g| integral of the height over the domain's lower end, over the water [J], J/m in 2D; in

@@ -46,6 +46,7 @@ FlowSolver<D>::FlowSolver(const Grid<D>& grid, const FlowOptions& options)
       extension_(grid),
       waves_(grid, options.waves),
       sides_(grid, options.sides, options.density),
+      sources_(grid, options.wave_sources),
       solids_(grid, options.solids),
       water_(grid, "water fraction", "1"),
       porosity_(grid, "porosity", "1", 1.0),
@@ -278,6 +279,8 @@ void FlowSolver<D>::transport(const PorousMedium<D>& medium, double dt) {
     loose_.data()[at] = loose ? 1.0 : 0.0;
     if (loose) moved[at] = solids_.moving() ? theta[at] : volume[at] * given[at];
   });
+  if (!sources_.empty())
+    outflow_ -= sum_over_ranks(grid, sources_.refill(time_, dt, loose_, new_porosity_));
   interface_.follow_porosity(water_, porosity_, new_porosity_);
   if (solids_.moving()) follow_solids(medium);
   check_bounds();
@@ -326,6 +329,7 @@ void FlowSolver<D>::advance(const PorousMedium<D>& medium, double dt, MovingGrai
   hold_sides();
   sides_.push(mobility_, projection_.unknown(), velocity_);
   find_target(medium, dt, grains ? slow_feedback(*grid_) : HUGE_VAL);
+  sources_.add(time_ + dt, target_);
   const bool gas_gives_way = gas_ && gas_->compressible();
   const CellField<D>& give_way =
       gas_gives_way ? gas_->with_gas_storage(medium.give_way, water_, porosity_, dt)

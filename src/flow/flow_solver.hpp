@@ -152,6 +152,7 @@ class FlowSolver {
   VelocityExtension<D> extension_;
   WaveZones<D> waves_;
   FlowSides<D> sides_;
+  WaveSources<D> sources_;
   std::optional<TwoFluids<D>> gas_;
   std::optional<Turbulence<D>> turbulence_;
   std::optional<GrainsInWater<D>> with_grains_;

@@ -38,6 +38,23 @@ double FourierWave::elevation(const WavePlace& place, double time) const {
   return sum;
 }
 
+double FourierWave::carried(const WavePlace& place, double time) const {
+  double sum = 0.0;
+  for (const WaveComponent& c : components_)
+    sum += c.frequency / c.wave_number * c.way[0] * c.elevation * std::cos(phase(c, place, time));
+  return sum;
+}
+
+double FourierWave::piston(double time) const {
+  double sum = 0.0;
+  for (const WaveComponent& c : components_) {
+    const double kd = std::min(c.wave_number * depth_, 300.0);
+    const double stroke = (std::sinh(2.0 * kd) + 2.0 * kd) / (2.0 * (std::cosh(2.0 * kd) - 1.0));
+    sum -= stroke * c.elevation * std::sin(phase(c, {}, time));
+  }
+  return sum;
+}
+
 void FourierWave::velocities(const WavePlace& place, double time, std::span<const double> heights,
                              std::span<WaveVelocity> out) const {
   std::array<std::array<double, nodes>, 3> column{};

@@ -30,6 +30,9 @@ class FourierWave final : public WaveMotion {
   double elevation(const WavePlace& place, double time) const override;
   void velocities(const WavePlace& place, double time, std::span<const double> heights,
                   std::span<WaveVelocity> out) const override;
+  double carried(const WavePlace& place, double time) const override;
+  /// Transfer function of Biesel (1951): stroke over height = (sinh 2kd + 2kd)/(2 (cosh 2kd - 1)).
+  double piston(double time) const override;
 
  private:
   /// Heights at which the depth functions of all components are known; they lie closer towards the

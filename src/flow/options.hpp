@@ -8,7 +8,7 @@
 
 #include "base/varying.hpp"
 #include "flow/flow_sides.hpp"
-#include "flow/wave_zone.hpp"
+#include "flow/wave_source.hpp"
 #include "grid/rigid_pose.hpp"
 
 namespace mudlark {
@@ -77,6 +77,7 @@ struct FlowOptions {
   double pressure_tolerance =
       1e-10;  ///< bound on the largest residual divergence times the step [-]
   std::vector<WaveZoneOptions> waves;
+  std::vector<WaveSourceOptions> wave_sources;
   TurbulenceOptions turbulence;
   std::vector<FlowSideOptions> sides;
   WallLaw wall_law = WallLaw::resolved;

@@ -153,7 +153,7 @@ SteadyWave stream_function_wave(double height, double period, double depth, doub
       if (step > 2e-3) continue;
       throw InputError(fmt::format(
           "no steady wave of height {:g} m and period {:g} s was found on a depth of {:g} m: the "
-          "highest has about {:.3g} m. Write a lower wave, or theory = \"linear\".",
+          "highest has about {:.3g} m. Write a lower wave.",
           height, period, depth, height * share));
     }
     before = share > 0.0 ? x : before;

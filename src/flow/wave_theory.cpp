@@ -97,6 +97,21 @@ class Solitary final : public WaveMotion {
     }
   }
 
+  /// Goring (1978), Caltech report KH-R-38: the board moves with the mean velocity of the wave of
+  /// first order, X' = c eta/(d + eta) at X, which gives X = H/(K d) tanh K(c t + crest - X).
+  double piston(double time) const override {
+    const double k = std::sqrt(0.75 * share_) / depth_, c = speed_ * std::sqrt(1.0 + share_);
+    const double longest = share_ / k;
+    double x = 0.0;
+    for (int pass = 0; pass < 100; ++pass) {  // Newton's method on X - H/(K d) tanh(...)
+      const double tangent = std::tanh(k * (c * time + crest_ - x));
+      const double miss = x - longest * tangent;
+      x -= miss / (1.0 + share_ * (1.0 - tangent * tangent));
+      if (std::abs(miss) < 1e-14 * longest) break;
+    }
+    return x;
+  }
+
  private:
   double phase(const WavePlace& place, double time) const {
     return decay_ * (way_[0] * place.along + way_[1] * place.across - crest_ - celerity_ * time);

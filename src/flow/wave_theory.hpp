@@ -33,6 +33,14 @@ class WaveMotion {
   /// Velocities at heights z above still water, none of them above the surface; without current.
   virtual void velocities(const WavePlace& place, double time, std::span<const double> heights,
                           std::span<WaveVelocity> out) const = 0;
+  /// Water beyond still water that the wave carries through a section, along [m2/s]: of a wave that
+  /// keeps its form, speed times elevation.
+  virtual double carried(const WavePlace& place, double time) const {
+    return celerity_ * elevation(place, time);
+  }
+  /// Displacement of a piston, along, that makes this wave from its place at rest on [m]; first
+  /// order. Only of regular waves of linear theory, seas and solitary waves.
+  virtual double piston(double /*time*/) const { return 0.0; }
   WaveVelocity velocity(const WavePlace& place, double z, double time) const {
     WaveVelocity value{};
     velocities(place, time, {&z, 1}, {&value, 1});

@@ -88,6 +88,12 @@ double box_fraction(const BoxShape& box, const Point3& lower, const Point3& uppe
   return fraction;
 }
 
+/// The same at all y: a slice of it has the same shares in space as in the plane.
+bool is_prism(const Shape& shape) {
+  const auto* polygon = std::get_if<PolygonShape>(&shape.form);
+  return std::holds_alternative<BelowShape>(shape.form) || (polygon && polygon->vertical_plane);
+}
+
 double sampled_fraction(const Shape& shape, const Point3& lower, const Point3& upper,
                         int dimension) {
   const int samples = dimension == 2 ? 16 : 8, across = dimension == 2 ? 1 : samples;
@@ -203,7 +209,7 @@ double fraction_inside(const Shape& shape, const Point3& lower, const Point3& up
     const double away = stl->mesh->distance_to(middle).distance;
     if (away * away > reach2) return away < 0.0 ? 1.0 : 0.0;
   }
-  return sampled_fraction(shape, lower, upper, dimension);
+  return sampled_fraction(shape, lower, upper, is_prism(shape) ? 2 : dimension);
 }
 
 BoxShape bounds(const Shape& shape) {

@@ -30,7 +30,23 @@ void check_wall(Section& section, const CaseOptions& options, const FlowSideOpti
                            wants_open ? "open" : "slip"));
 }
 
-void read_flow(Section& section, FlowSideOptions& opening) {
+/// Water outside that stands below all of the domain is a mistake in the datum.
+void check_level(Section& section, const DomainOptions& domain, const FlowSideOptions& opening) {
+  const auto up = static_cast<std::size_t>(domain.dimension - 1);
+  const auto axis = static_cast<std::size_t>(opening.axis);
+  std::vector<double> place;
+  for (std::size_t a = 0; a <= up; ++a) place.push_back(0.5 * (domain.lower[a] + domain.upper[a]));
+  place[axis] = (opening.side == 0 ? domain.lower : domain.upper)[axis];
+  const double level = (*opening.level)(point_from_axes(place), 0.0);
+  if (level < domain.lower[up])
+    section.fail("level",
+                 fmt::format("at the start it lies at {:g} m, below the domain, which begins at "
+                             "{:g} m",
+                             level, domain.lower[up]),
+                 "It is the height of the water's surface on the vertical axis, not a depth.");
+}
+
+void read_flow(Section& section, const DomainOptions& domain, FlowSideOptions& opening) {
   opening.flow = section.choice<SideFlow>("type", {{"velocity", SideFlow::velocity},
                                                    {"discharge", SideFlow::discharge},
                                                    {"level", SideFlow::level}});
@@ -40,9 +56,11 @@ void read_flow(Section& section, FlowSideOptions& opening) {
     opening.value = section.varying(
         "discharge",
         section.reading().dimension == 3 ? quantity::discharge : quantity::discharge_in_plane, {});
-  if (section.has("level"))
+  if (section.has("level")) {
+    const std::size_t before = section.reading().report.size();
     opening.level = section.varying("level", quantity::length, {});
-  else if (opening.flow == SideFlow::level)
+    if (section.reading().report.size() == before) check_level(section, domain, opening);
+  } else if (opening.flow == SideFlow::level)
     section.missing("level", "the height to which the water outside stands is needed");
 }
 
@@ -114,7 +132,7 @@ void read_openings(Section& root, CaseOptions& options) {
     const SidePart part = read_side(section, options.domain.dimension);
     opening.axis = part.axis, opening.side = part.side;
     read_range(section, options.domain.dimension, part.axis, opening.from, opening.to);
-    read_flow(section, opening);
+    read_flow(section, options.domain, opening);
     section.finish();
     if (root.reading().report.size() == before) add_flow_side(section, options, opening);
   }

@@ -13,8 +13,9 @@ namespace {
 
 enum class Kind { regular, solitary, irregular, focused, given, still, sponge };
 
-RegularWave read_regular(Section& section) {
+RegularWave read_regular(Section& section, bool first_order) {
   RegularWave wave;
+  if (first_order) wave.theory = RegularTheory::linear;
   wave.height = section.number("height", quantity::length,
                                positive("a wave has a height above 0, from trough to crest"));
   wave.period = section.number("period", quantity::time, positive("a wave has a period above 0"));
@@ -76,51 +77,7 @@ GivenWave read_given(Section& section) {
   return wave;
 }
 
-/// zone = { outer = .., inner = .., axis = "x" }
-void read_zone(Section& wave, WaveZoneOptions& zone) {
-  Section section = wave.table("zone", Record::Form::inline_table, true);
-  if (!wave.has("zone")) return;
-  zone.outer = section.number("outer", quantity::length, {});
-  zone.inner = section.number("inner", quantity::length, {});
-  if (wave.reading().dimension == 3)
-    zone.axis = section.choice<int>("axis", {{"x", 0}, {"y", 1}}, 0);
-  if (zone.outer == zone.inner)
-    section.fail("inner", "the zone has no length: outer and inner are equal",
-                 "Make it at least one wave long.");
-  section.finish();
-}
-
-/// side = "lower_x" in place of a zone: the wave comes in there, and what comes to it may leave.
-std::optional<FlowSideOptions> read_wave_side(Section& wave, const DomainOptions& domain,
-                                              WaveZoneOptions& zone) {
-  if (!wave.has("side")) {
-    if (!wave.has("zone")) {
-      wave.missing("zone", "write side = \"lower_x\", or zone = { outer = .., inner = .. }");
-      return {};
-    }
-    read_zone(wave, zone);
-    const auto axis = static_cast<std::size_t>(zone.axis);
-    if (std::max(zone.outer, zone.inner) <= domain.lower[axis] ||
-        std::min(zone.outer, zone.inner) >= domain.upper[axis])
-      wave.fail("zone", fmt::format("it lies beside the domain, which reaches from {:g} to {:g} m",
-                                    domain.lower[axis], domain.upper[axis]));
-    return {};
-  }
-  wave.forbid("zone", "a wave is made at a side or in a zone");
-  const SidePart part = read_side(wave, domain.dimension);
-  FlowSideOptions side;
-  side.name = zone.name;
-  side.flow = SideFlow::wave;
-  side.axis = zone.axis = part.axis;
-  side.side = part.side;
-  const auto axis = static_cast<std::size_t>(part.axis);
-  if (part.axis == domain.dimension - 1) wave.fail("side", "waves come in through a vertical side");
-  zone.outer = part.side == 0 ? domain.lower[axis] : domain.upper[axis];
-  zone.inner = part.side == 0 ? domain.upper[axis] : domain.lower[axis];
-  return side;
-}
-
-WaveKind read_kind(Section& section, WaveZoneOptions& zone) {
+WaveKind read_kind(Section& section, WaveZoneOptions& zone, bool first_order) {
   switch (section.choice<Kind>("type", {{"regular", Kind::regular},
                                         {"solitary", Kind::solitary},
                                         {"irregular", Kind::irregular},
@@ -129,7 +86,7 @@ WaveKind read_kind(Section& section, WaveZoneOptions& zone) {
                                         {"still", Kind::still},
                                         {"sponge", Kind::sponge}})) {
     case Kind::regular:
-      return read_regular(section);
+      return read_regular(section, first_order);
     case Kind::solitary:
       return read_solitary(section);
     case Kind::irregular:
@@ -149,8 +106,14 @@ WaveKind read_kind(Section& section, WaveZoneOptions& zone) {
   return StillWater{};
 }
 
-/// Where waves come from and what carries them.
-void read_setting(Section& section, WaveZoneOptions& zone) {
+/// Where waves come from and what carries them; `along`: made by a paddle or a source, which knows
+/// neither.
+void read_setting(Section& section, WaveZoneOptions& zone, bool along) {
+  if (along) {
+    for (const char* key : {"direction", "current"})
+      section.forbid(key, "a paddle or a source makes waves along its axis in water at rest");
+    return;
+  }
   const bool made = !std::holds_alternative<StillWater>(zone.wave);
   if (section.reading().dimension == 3 && made) {
     const double degrees =
@@ -170,10 +133,59 @@ void read_setting(Section& section, WaveZoneOptions& zone) {
     zone.current = section.number("current", quantity::velocity, {}, 0.0);
 }
 
+/// McCowan (1894): no wave is higher than this share of the depth. Miche (1944): nor than this
+/// share of its length times tanh k d.
+constexpr double highest_of_depth = 0.78, highest_of_length = 0.142;
+
+/// Height of the wave and the key that says it; for a sea that of its significant wave. Nothing for
+/// still water and for levels that are given.
+std::pair<const char*, double> height_of(const WaveKind& kind) {
+  if (const auto* wave = std::get_if<RegularWave>(&kind)) return {"height", wave->height};
+  if (const auto* wave = std::get_if<SolitaryWave>(&kind)) return {"height", wave->height};
+  if (const auto* wave = std::get_if<IrregularSea>(&kind))
+    return {"significant_height", wave->significant_height};
+  if (const auto* wave = std::get_if<FocusedWave>(&kind))
+    return {"crest_height", wave->crest_height};
+  return {"", 0.0};
+}
+
+/// A wave that would break where it is made. Motions are computed for others without complaint.
+void check_height(Section& section, const WaveZoneOptions& zone, const WaveMotion& motion) {
+  const auto [key, height] = height_of(zone.wave);
+  double highest = highest_of_depth * zone.depth;
+  if (std::holds_alternative<RegularWave>(zone.wave)) {
+    const double length = motion.length();
+    highest = std::min(highest, highest_of_length * length *
+                                    std::tanh(2.0 * std::numbers::pi * zone.depth / length));
+  }
+  if (height > highest)
+    section.fail(key,
+                 fmt::format("such a wave breaks at once: on {:g} m of water {:.3g} m are the most",
+                             zone.depth, highest),
+                 section.has("depth") ? "Write a lower wave."
+                                      : "Write a lower wave, or the `depth` of the water.");
+}
+
+/// Still water under the wave, and how the wave grows.
+void read_water_depth(Section& section, const DomainOptions& domain, WaveZoneOptions& zone) {
+  const auto up = static_cast<std::size_t>(domain.dimension - 1);
+  const double bottom = domain.lower[up], top = domain.upper[up];
+  zone.still_level = section.number("still_level", quantity::length, {});
+  if (zone.still_level <= bottom || zone.still_level >= top)
+    section.fail("still_level", fmt::format("the domain reaches from {:g} to {:g} m", bottom, top),
+                 "It is the height of still water, on the vertical axis.");
+  zone.depth = section.number("depth", quantity::length,
+                              positive("waves need water; the depth lies above 0"),
+                              zone.still_level - bottom);
+  zone.ramp = section.number("ramp", quantity::time,
+                             not_negative("the time over which the wave grows; 0: at once"), 0.0);
+}
+
 void check_wave(Section& section, const WaveZoneOptions& zone, double gravity, std::size_t before) {
   if (section.reading().report.size() != before || gravity <= 0.0) return;
   try {
     const auto motion = make_wave(zone, gravity);
+    check_height(section, zone, *motion);
     const bool periodic = std::holds_alternative<RegularWave>(zone.wave) ||
                           std::holds_alternative<IrregularSea>(zone.wave) ||
                           std::holds_alternative<FocusedWave>(zone.wave);
@@ -201,33 +213,21 @@ void read_waves(Section& root, CaseOptions& options) {
   std::vector<std::string> names;
   for (Section& section : sections) {
     const std::size_t before = section.reading().report.size();
-    WaveZoneOptions zone;
-    zone.name = read_name(section, names);
-    auto side = read_wave_side(section, options.domain, zone);
-    zone.wave = read_kind(section, zone);
-    if (side && zone.action == ZoneAction::velocity)
+    const std::string name = read_name(section, names);
+    WaveMaker maker = read_wave_maker(section, options.domain);
+    WaveZoneOptions& zone = maker.zone;
+    zone.name = name;
+    if (maker.side) maker.side->name = name;
+    const bool along = maker.paddle || maker.source;
+    zone.wave = read_kind(section, zone, maker.paddle.has_value());
+    if (!section.has("zone") && zone.action == ZoneAction::velocity)
       section.fail("type", "a sponge is a zone", "Write zone = { outer = .., inner = .. }.");
-    zone.still_level = section.number("still_level", quantity::length, {});
-    const double bottom = options.domain.lower[up], top = options.domain.upper[up];
-    if (zone.still_level <= bottom || zone.still_level >= top)
-      section.fail("still_level",
-                   fmt::format("the domain reaches from {:g} to {:g} m", bottom, top),
-                   "It is the height of still water, on the vertical axis.");
-    zone.depth = section.number("depth", quantity::length,
-                                positive("waves need water; the depth lies above 0"),
-                                zone.still_level - bottom);
-    zone.ramp = section.number("ramp", quantity::time,
-                               not_negative("the time over which the wave grows; 0: at once"), 0.0);
-    read_setting(section, zone);
+    read_water_depth(section, options.domain, zone);
+    read_setting(section, zone, along);
     if (gravity <= 0.0) section.fail("type", "waves need gravity, and it does not point down here");
     check_wave(section, zone, gravity, before);
     section.finish();
-    if (!side) {
-      options.flow->waves.push_back(std::move(zone));
-      continue;
-    }
-    side->wave = std::move(zone);
-    if (section.reading().report.size() == before) add_flow_side(section, options, *side);
+    if (section.reading().report.size() == before) add_wave(section, options, std::move(maker));
   }
 }
 

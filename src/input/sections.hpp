@@ -71,6 +71,18 @@ void resolve_dilatancy(Section& section, double porosity, SekiguchiOhtaOptions& 
 void check_settled_void_ratio(Section& section, double porosity, const SanisandOptions& law);
 /// A law that the user compiled.
 SoilLawOptions read_umat(Section& law);
+/// How a [[wave]] is made: one of side, paddle, source, or else a zone.
+struct WaveMaker {
+  WaveZoneOptions zone;
+  std::optional<FlowSideOptions> side;
+  std::optional<BoxShape> paddle;  ///< the board at rest
+  double backwards = 0.0;          ///< room behind its front [m]
+  std::optional<BoxShape> source;
+};
+/// side, zone, paddle or source of a [[wave]].
+WaveMaker read_wave_maker(Section& wave, const DomainOptions& domain);
+/// Adds a wave that is read to the water, and the board of a paddle to its bodies.
+void add_wave(Section& wave, CaseOptions& options, WaveMaker maker);
 /// [[wave]]: after [domain] and [water].
 void read_waves(Section& root, CaseOptions& options);
 /// Spectrum, number and directions of the components of a sea; `random`: their phases are.

@@ -9,7 +9,7 @@ namespace {
 
 // States of a face: negative ones wait for a value; a layer's number says when a face got it.
 constexpr double film =
-    -3.0;  ///< water without pressure on a body: extended where any layer reaches it, else kept
+    -3.0;  ///< water without pressure on a body: extended where any layer reaches it, else still
 constexpr double empty = -2.0;  ///< no water: to be extended
 constexpr double free_fly =
     -1.0;  ///< water without pressure: extended next to governed faces, else kept
@@ -145,8 +145,7 @@ void VelocityExtension<D>::extend(const CellField<D>& unknown, const CellField<D
     });
     for (int layer = 2; layer <= ghost_layers; ++layer) grow_layer(component, layer, v);
     for_each_offset(grid, grid.owned_faces(component), [&](std::ptrdiff_t at) {
-      if (state[at] < 0.0 && state[at] != film) v[at] = 0.0;
-      if (state[at] == film && component == D - 1) v[at] = std::max(v[at], 0.0);
+      if (state[at] < 0.0) v[at] = 0.0;
     });
   }
   ghosts_.update_velocity(velocity);

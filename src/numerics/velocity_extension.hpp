@@ -14,8 +14,9 @@ class VelocityExtension {
   /// what they have; those without water take the mean of their neighbours in two more layers, and
   /// zero beyond. Afterwards water that flies freely is kept from being squeezed: a cell without
   /// pressure may open but not close (a thin film on the floor would otherwise fall for ever).
-  /// Faces without `capacity` are closed like walls; films on bodies do not fly, they go with the
-  /// water that reaches them. All inputs and the result have valid ghosts.
+  /// Faces without `capacity` are closed like walls; films on bodies do not fly: they go with the
+  /// water that reaches them within three cells, or lie still. All inputs and the result have valid
+  /// ghosts.
   void extend(const CellField<D>& unknown, const CellField<D>& water, const CellField<D>& porosity,
               const FaceVector<D>& capacity, FaceVector<D>& velocity);
 

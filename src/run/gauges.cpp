@@ -148,7 +148,7 @@ double read_run_up(World<D>& world, const GaugeOptions& gauge) {
     range.from[a] = gauge.range.from[static_cast<std::size_t>(a)],
     range.to[a] = gauge.range.to[static_cast<std::size_t>(a)];
   range.thickness = gauge.thickness;
-  return run_up(world.grid(), world.flow()->saturation(), world.flow()->porosity(), range);
+  return run_up(world.grid(), world.flow()->saturation(), world.medium(), range);
 }
 
 template <int D>

@@ -348,5 +348,55 @@ TEST(WaveTheory, AGivenLevelTravelsAsALongWave) {
   EXPECT_LT(misfits(*motion, setting, 0.0, 0.5)[0], 1e-5);
 }
 
+// Volume: what comes in through a section changes the level behind it.
+TEST(WaveTheory, WhatAWaveCarriesIsTheChangeOfTheLevelBeyond) {
+  IrregularSea sea;
+  sea.sea.spectrum.peak_period = 1.5;
+  sea.sea.count = 20;
+  sea.significant_height = 0.06;
+  for (const WaveKind& kind : {WaveKind{RegularWave{0.1, 2.0, RegularTheory::stream_function}},
+                               WaveKind{sea}, WaveKind{SolitaryWave{0.1, -1.0}}}) {
+    const auto motion = make_wave(kind, {.depth = 0.5});
+    const double h = 1e-4;
+    for (const double time : {0.3, 0.9, 1.6}) {
+      const double slope =
+          (motion->carried({h, 0.0}, time) - motion->carried({-h, 0.0}, time)) / (2.0 * h);
+      const double rise =
+          (motion->elevation({}, time + h) - motion->elevation({}, time - h)) / (2.0 * h);
+      EXPECT_NEAR(slope, -rise, 1e-5);
+    }
+  }
+}
+
+TEST(WaveTheory, APistonHasTheStrokeOfBiesel) {
+  const double depth = 0.5, period = 2.0, kd = wave_number(period, depth, gravity) * depth;
+  const auto motion = make_wave(RegularWave{0.04, period, RegularTheory::linear}, {.depth = depth});
+  const double ratio = 2.0 * (std::cosh(2.0 * kd) - 1.0) / (std::sinh(2.0 * kd) + 2.0 * kd);
+  EXPECT_NEAR(motion->piston(0.25 * period), 0.02 / ratio, 1e-12);  // foremost
+  EXPECT_NEAR(motion->piston(0.75 * period), -0.02 / ratio, 1e-12);
+  EXPECT_NEAR(motion->piston(0.5 * period), 0.0, 1e-12);
+  // In shallow water the board moves with the water: X = integral of c eta/d.
+  const auto longest = make_wave(RegularWave{0.01, 60.0, RegularTheory::linear}, {.depth = depth});
+  const double rate = (longest->piston(0.01) - longest->piston(-0.01)) / 0.02;
+  EXPECT_NEAR(rate, longest->celerity() * 0.005 / depth, 1e-3 * rate);
+}
+
+// Goring (1978): X' = c eta/(d + eta) where the board is.
+TEST(WaveTheory, APistonFollowsTheSolitaryWaveThatItMakes) {
+  const double depth = 0.5, height = 0.1, crest = -2.0;
+  const auto motion = make_wave(SolitaryWave{height, crest}, {.depth = depth});
+  const double k = std::sqrt(0.75 * height / depth) / depth;
+  const double c = std::sqrt(gravity * (depth + height));
+  for (const double time : {0.1, 0.7, 1.0, 1.5}) {
+    const double x = motion->piston(time), h = 1e-5;
+    const double speed = (motion->piston(time + h) - motion->piston(time - h)) / (2.0 * h);
+    const double share = 1.0 / std::cosh(k * (c * time + crest - x));
+    const double eta = height * share * share;
+    EXPECT_NEAR(speed, c * eta / (depth + eta), 1e-6);
+  }
+  // All the water of the hump has been pushed: the board's way times the depth.
+  EXPECT_NEAR(motion->piston(20.0) - motion->piston(-20.0), 2.0 * height / (k * depth), 1e-9);
+}
+
 }  // namespace
 }  // namespace mudlark

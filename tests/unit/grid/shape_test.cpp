@@ -31,6 +31,16 @@ TEST(Shape, PolygonWithANotchIsOutsideInItsNotch) {
   EXPECT_TRUE(polygon.contains({0.5, 7.0, 2.0}));
 }
 
+TEST(Shape, APrismAlongYHasTheSharesOfThePlaneInSpace) {
+  for (const Shape& prism : {Shape{PolygonShape{{{0, 0}, {4, 0}, {4, 3}, {2, 1}, {0, 3}}}},
+                             Shape{BelowShape{{{0, 0.3}, {4, 2.1}}}}}) {
+    const double plane = fraction_inside(prism, {1.7, 0, 1.0}, {2.1, 0, 1.3}, 2);
+    EXPECT_GT(plane, 0.0);
+    EXPECT_LT(plane, 1.0);
+    EXPECT_EQ(fraction_inside(prism, {1.7, 0.1, 1.0}, {2.1, 0.4, 1.3}, 3), plane);
+  }
+}
+
 TEST(Shape, HorizontalPolygonIsAPrismBetweenItsHeights) {
   const Shape polygon{PolygonShape{{{0, 0}, {1, 0}, {0, 1}}, false, 2.0, 3.0}};
   EXPECT_TRUE(polygon.contains({0.2, 0.2, 2.5}));

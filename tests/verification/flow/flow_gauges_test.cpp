@@ -114,7 +114,7 @@ void run_up_on_stairs() {
   if (D == 3) domain = flow_domain({60, 20, 50}, {0.6, 0.2, 0.5}, {0.0, 0.0, -9.81});
   const FlowRun<D> run(domain, options);
   const auto read = [&](const RunUpRange<D>& range) {
-    return run_up(run.grid, run.flow.saturation(), run.flow.porosity(), range);
+    return run_up(run.grid, run.flow.saturation(), run.medium, range);
   };
   const double first = 0.15;
   EXPECT_NEAR(read(everywhere<D>(0.01)), 0.2 + 0.012, 1e-13);
@@ -134,6 +134,31 @@ void run_up_on_stairs() {
 TEST(FlowGauges, RunUpIsTheHighestWaterThatStandsThickEnoughOnTheGround) {
   run_up_on_stairs<2>();
   run_up_on_stairs<3>();
+}
+
+/// Still water on a beach that bodies cut out of the cells, beside a wall inside a column.
+template <int D>
+void run_up_on_a_beach() {
+  constexpr double level = 0.2137;
+  FlowOptions options;
+  options.bodies = {water_box({-1.0, -1.0, -1.0}, {1.0, 1.0, level})};
+  FlowSolid beach{"beach", {}, Point3{}, {}, false}, wall{"wall", {}, Point3{}, {}, false};
+  const PolygonShape slope{{{0.1, -0.1}, {0.7, -0.1}, {0.7, 0.36}, {0.1, 0.0}}};
+  beach.shape.form = slope;
+  wall.shape.form = BoxShape{{-1.0, -1.0, -1.0}, {0.013, 1.0, 1.0}};
+  options.solids = {beach, wall};
+  const FlowRun<D> run(tank<D>(D == 2 ? 20 : 6), options);
+  RunUpRange<D> range = everywhere<D>(0.001);
+  const auto read = [&] { return run_up(run.grid, run.flow.saturation(), run.medium, range); };
+  for (const double x : {0.01, 0.05, 0.15, 0.25, 0.35, 0.41}) {
+    range.from[0] = x - 0.01, range.to[0] = x + 0.01;
+    EXPECT_NEAR(read(), level, 2e-4) << "at x = " << x;
+  }
+}
+
+TEST(FlowGauges, RunUpOnABodysSlopeIsGoodToAPartOfACell) {
+  run_up_on_a_beach<2>();
+  run_up_on_a_beach<3>();
 }
 
 /// A wedge of water, z < 0.1 m + x/2: in the inner cells PLIC has exactly its plane, so only the
