@@ -4,10 +4,11 @@
     /usr/bin/python3 cases/submerged_collapse/compare.py --run build/release/bin/mudlark
                                                          [--results results/submerged_collapse] [--picture FILE.png]
 
-- Pressure of the liquid at the bottom, 2 cm from the wall, above that of liquid at rest: at first positive where the beads
-  are loose, negative where they are dense.
+- Pressure of the liquid at the bottom, 2 cm from the wall, above that of liquid at rest, mean over the first half second:
+  positive where the beads are loose, negative where they are dense.
 - Run-out of the loose column over that of the dense one: 1.6 to 2.5 ("about twice"). Run-out: x of 99.5 % of the beads
-  over the column's width, less 1.
+  over the column's width, less 1, at the end of each run. The dense column is still creeping then, so its run-out over
+  the loose one's of the same time, and how much it grew in the last fifth of the run, are printed as well.
 - Water and grains are kept to 1e-12.
 
 Exits with 1 when a tolerance is missed.
@@ -91,8 +92,10 @@ def main():
         axes["r"].plot(times, [run_out(run_.points(t)) for t in times], colour, label=name)
         out[name] = run_out(run_.points(times[-1]))
         sign = 1.0 if name == "loose" else -1.0
-        check(findings, f"{name}: excess pressure at the bottom after {times[0]:.2g} s [Pa]", pressure[0],
-              sign * pressure[0] > 0.0, "positive" if sign > 0 else "negative")
+        first = np.mean([p for t, p in zip(times, pressure) if t < 0.55])
+        check(findings, f"{name}: excess pressure at the bottom, first 0.5 s [Pa]", first, sign * first > 0.0,
+              "positive" if sign > 0 else "negative")
+        print(f"{name}: {pressure[0]:.2g} Pa after {times[0]:.2g} s, farthest from 0 {max(pressure, key=abs):.3g} Pa")
         print(f"{name}: run-out after {times[-1]:.3g} s {out[name]:.3g}, in the last fifth of the time "
               f"{out[name] - run_out(run_.points(times[len(times) * 4 // 5])):.2g}")
         errors = json.loads((arguments.results / name / "summary.json").read_text())["conservation errors"]
@@ -102,7 +105,10 @@ def main():
         axes[letters[0]].set_title(f"{name}, 0.1 s", fontsize=8, loc="left")
         figure.colorbar(shown, ax=[axes[letter] for letter in letters], label="excess pressure [Pa]", shrink=0.6)
     ratio = out["loose"] / out["dense"]
-    check(findings, "run-out, loose over dense", ratio, 1.6 <= ratio <= 2.5, "1.6 to 2.5")
+    check(findings, "run-out, loose over dense, at the end of each run", ratio, 1.6 <= ratio <= 2.5, "1.6 to 2.5")
+    loose, dense = (Results(arguments.results / name) for name in COLUMNS)
+    same = loose.point_times[-1]
+    print(f"the same after {same:.3g} s of both: {out['loose'] / run_out(dense.points(same)):.3g}")
     for letter in "abcdefgh":
         axes[letter].set_aspect("equal")
         axes[letter].set_xlim(0, 0.24)

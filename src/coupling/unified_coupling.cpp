@@ -72,7 +72,13 @@ void UnifiedCoupling<D>::load_grains(const FlowSolver<D>& flow, const Space<D>& 
   for (FaceVector<D>* field : {&grains_.share, &grains_.inertia, &grains_.force, &grains_.velocity})
     for (int a = 0; a < D; ++a) fields[number++] = (*field)[a].data();
   halo_.exchange(fields);
-  if (drag_.active()) drag_.find(room_, space, flow.velocity(), grains_);
+  if (drag_.active()) {
+    drag_.find(room_, space, flow.velocity(), grains_);
+    std::array<double*, std::size_t{D}> resistance{};
+    for (int a = 0; a < D; ++a)
+      resistance[static_cast<std::size_t>(a)] = grains_.resistance[a].data();
+    halo_.exchange(resistance);
+  }
 }
 
 /// On the part of a face that lies in a body grains share no flux with the water, only its

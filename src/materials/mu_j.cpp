@@ -90,7 +90,7 @@ MuJ::Slide MuJ::find_slide(double trial, double compression, double fraction, do
   for (int i = 0; i < most_iterations; ++i) {
     const double middle = (lower * above - upper * below) / (above - below);
     const double rest = excess(middle);
-    if (std::abs(rest) <= 1e-8 * trial) break;
+    if (std::abs(rest) <= 1e-13 * trial) break;
     if (rest > 0.0)
       lower = middle, below = rest, above *= 0.5;
     else

@@ -34,6 +34,10 @@ TEST_F(Ranks, GiveTheSameDamBreakOverASlopingBedIn3D) {
 
 TEST_F(Ranks, GiveTheSameDamBreakWithOneWater) { expect_the_same_on_all_ranks("one_water_2d"); }
 
+TEST_F(Ranks, GiveTheSameDamBreakOverGrainsThatYield) {
+  expect_the_same_on_all_ranks("one_water_grains_2d");
+}
+
 TEST_F(Ranks, GiveTheSameWallPushedThroughASubmergedBed) {
   expect_the_same_on_all_ranks("one_water_solid_2d");
 }
