@@ -14,9 +14,7 @@ namespace {
 
 constexpr double h = 0.025;
 
-Shape box(double x0, double x1, double top) {
-  return Shape{BoxShape{{x0, -9, -9}, {x1, 9, top}}};
-}
+Shape box(double x0, double x1, double top) { return Shape{BoxShape{{x0, -9, -9}, {x1, 9, top}}}; }
 
 using Change = std::function<void(CaseOptions&)>;
 
