@@ -1,5 +1,6 @@
 #include "coupling/unified_coupling.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 
@@ -8,6 +9,8 @@ namespace {
 
 /// Faces with fewer grains than this share of a cell carry none: their velocity is round-off.
 constexpr double least_share = 1e-9;
+/// Cells with more grains than this are soil for water that falls in them, not open space.
+constexpr double rim = 0.2;
 
 }  // namespace
 
@@ -25,6 +28,10 @@ UnifiedCoupling<D>::UnifiedCoupling(const Grid<D>& grid, const SoilSolver<D>& so
       change_(grid, "grain change", "m/s"),
       before_(grid, "grain velocity before", "m/s") {
   if (!soil.options().solids.empty()) extension_.emplace(grid);
+  const auto& bodies = soil.options().bodies;
+  grains_.filling = bodies.front().filling;
+  grains_.hold_water = std::any_of(bodies.begin(), bodies.end(),
+                                   [](const SoilBody& body) { return body.filling.suction > 0.0; });
 }
 
 template <int D>
@@ -37,6 +44,13 @@ void UnifiedCoupling<D>::map_soil_to_grid(SoilSolver<D>& soil, const PorousMediu
       const double open = medium.space.aperture[a][face];  // only there water resists
       grains_.resistance[a][face] = open > 0.0 ? room_.resistance_at(a, face) / open : 0.0;
     });
+  for_each(grid_->local(), [&](const Index<D>& cell) {
+    medium.drains[cell] = std::max(fixed.drains[cell], room_.fraction()[cell] > rim ? 1.0 : 0.0);
+  });
+  if (!grains_.hold_water) return;
+  soil.suction(medium.suction);
+  for_each(grid_->local(),
+           [&](const Index<D>& cell) { medium.suction[cell] += fixed.suction[cell]; });
 }
 
 template <int D>

@@ -71,9 +71,12 @@ void fill_fixed_ground(const Grid<D>& grid, const FlowOptions& options, PorousMe
   for (const PorousGround& ground : options.porous) {
     const DragCoefficients drag = drag_of(ground, options);
     const double added = added_mass_of(ground, options);
+    const bool drains = !same_curve(ground.filling, PorousGround{}.filling);
     for_each(grid.owned(), [&](const Index<D>& cell) {
       const double share = share_around(grid, ground.shape, -1, cell);
       medium.porosity[cell] += share * (ground.porosity - medium.porosity[cell]);
+      medium.suction[cell] += share * (ground.filling.suction - medium.suction[cell]);
+      if (share >= 0.5) medium.drains[cell] = drains ? 1.0 : 0.0;
     });
     for (int axis = 0; axis < D; ++axis)
       for_each(grid.owned_faces(axis), [&](const Index<D>& face) {
@@ -90,11 +93,29 @@ void fill_fixed_ground(const Grid<D>& grid, const FlowOptions& options, PorousMe
              [&](const Index<D>& face) { medium.added_mass[axis][face] /= room[axis][face]; });
   Ghosts<D> ghosts(grid);
   ghosts.update(medium.porosity);
+  ghosts.update(medium.suction);
+  ghosts.update(medium.drains);
   ghosts.exchange(medium.linear_drag);
   ghosts.exchange(medium.quadratic_drag);
   ghosts.exchange(medium.added_mass);
 }
 
+template <int D>
+void number_grounds(const Grid<D>& grid, const FlowOptions& options, FaceVector<D>& number) {
+  double count = 0.0;
+  for (const PorousGround& ground : options.porous) {
+    count += 1.0;
+    for (int axis = 0; axis < D; ++axis)
+      for_each(grid.owned_faces(axis), [&](const Index<D>& face) {
+        if (share_around(grid, ground.shape, axis, face) >= 0.5) number[axis][face] = count;
+      });
+  }
+  Ghosts<D> ghosts(grid);
+  ghosts.exchange(number);
+}
+
+template void number_grounds(const Grid<2>&, const FlowOptions&, FaceVector<2>&);
+template void number_grounds(const Grid<3>&, const FlowOptions&, FaceVector<3>&);
 template void fill_fixed_ground(const Grid<2>&, const FlowOptions&, PorousMedium<2>&);
 template void fill_fixed_ground(const Grid<3>&, const FlowOptions&, PorousMedium<3>&);
 

@@ -16,6 +16,12 @@ DragCoefficients drag_of(const PorousGround& ground, const FlowOptions& water);
 template <int D>
 void fill_fixed_ground(const Grid<D>& grid, const FlowOptions& options, PorousMedium<D>& medium);
 
+/// The ground that fills at least half of each face's box, counted from 1; 0: none. Owned faces.
+template <int D>
+void number_grounds(const Grid<D>& grid, const FlowOptions& options, FaceVector<D>& number);
+
+extern template void number_grounds(const Grid<2>&, const FlowOptions&, FaceVector<2>&);
+extern template void number_grounds(const Grid<3>&, const FlowOptions&, FaceVector<3>&);
 extern template void fill_fixed_ground(const Grid<2>&, const FlowOptions&, PorousMedium<2>&);
 extern template void fill_fixed_ground(const Grid<3>&, const FlowOptions&, PorousMedium<3>&);
 

@@ -42,6 +42,7 @@ FlowSolver<D>::FlowSolver(const Grid<D>& grid, const FlowOptions& options)
       interface_(grid),
       momentum_(grid),
       predictor_(grid, options),
+      drained_(grid, options),
       projection_(grid, options),
       extension_(grid),
       waves_(grid, options.waves),
@@ -196,7 +197,8 @@ void FlowSolver<D>::project_start(const PorousMedium<D>& medium) {
   if (gas_)
     ghosts_.update_velocity(velocity_);
   else
-    extension_.extend(projection_.unknown(), water_, porosity_, capacity_, velocity_);
+    extension_.extend(projection_.unknown(), water_, porosity_, capacity_, medium.drains,
+                      velocity_);
   double round_off = 1e-300;  // what cancellation leaves of the divergence under the deepest water
   for (int a = 0; a < D; ++a) {
     round_off = std::max(
@@ -210,6 +212,7 @@ void FlowSolver<D>::project_start(const PorousMedium<D>& medium) {
         zero_wall(grid, a, side, flux_[a]);
   }
   sides_.push(mobility_, projection_.unknown(), flux_);
+  projection_.pull(mobility_, medium.suction, flux_);
   target_.fill(0.0);
   last_solve_ =
       projection_.project(capacity_, mobility_, target_, no_storage_, pressure_, flux_, round_off);
@@ -326,8 +329,10 @@ void FlowSolver<D>::advance(const PorousMedium<D>& medium, double dt, MovingGrai
   predictor_.advance(medium, porosity_, capacity_, wall_friction_, time_, dt,
                      gas_ ? &gas_->mixture() : nullptr,
                      turbulence_ ? &turbulence_->viscosity() : nullptr, velocity_, mobility_);
+  drained_.slow(water_, porosity_, projection_.unknown(), medium.added_mass, dt, velocity_,
+                mobility_);
   hold_sides();
-  sides_.push(mobility_, projection_.unknown(), velocity_);
+  if (!grains) push_given(medium);
   find_target(medium, dt, grains ? slow_feedback(*grid_) : HUGE_VAL);
   sources_.add(time_ + dt, target_);
   const bool gas_gives_way = gas_ && gas_->compressible();
@@ -335,31 +340,19 @@ void FlowSolver<D>::advance(const PorousMedium<D>& medium, double dt, MovingGrai
       gas_gives_way ? gas_->with_gas_storage(medium.give_way, water_, porosity_, dt)
                     : medium.give_way;
   if (grains)
-    project_with_grains(give_way, dt, *grains);
+    project_with_grains(medium, give_way, dt, *grains);
   else
     last_solve_ = projection_.project(capacity_, mobility_, target_, give_way, pressure_, velocity_,
                                       options_.pressure_tolerance / dt);
   ghosts_.update_velocity(velocity_);
-  if (!gas_) extension_.extend(projection_.unknown(), water_, porosity_, capacity_, velocity_);
+  if (!gas_)
+    extension_.extend(projection_.unknown(), water_, porosity_, capacity_, medium.drains,
+                      velocity_);
   hold_sides();
   check_finite();
   if (turbulence_) turbulence_->find(medium, saturation_, velocity_);
   step_ += 1;
   time_ += dt;
-}
-
-/// One pressure makes the flux of water and grains together free of divergence and moves both.
-template <int D>
-void FlowSolver<D>::project_with_grains(const CellField<D>& give_way, double dt,
-                                        MovingGrains<D>& grains) {
-  if (!with_grains_) with_grains_.emplace(*grid_);
-  GrainsInWater<D>& both = *with_grains_;
-  both.couple(capacity_, water_, porosity_, projection_.unknown(), dt, velocity_, mobility_,
-              grains);
-  last_solve_ = projection_.project(both.whole(), both.flux_mobility(), target_, give_way,
-                                    pressure_, both.flux(), options_.pressure_tolerance / dt);
-  projection_.push(mobility_, pressure_, velocity_);
-  projection_.push(both.grain_mobility(), pressure_, grains.velocity);
 }
 
 /// The water is at the end of the step, the velocity still at its start: gravity and pressure come

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "flow/drained_ground.hpp"
 #include "flow/fixed_ground.hpp"
 #include "flow/moving_grains.hpp"
 #include "flow/options.hpp"
@@ -135,7 +136,9 @@ class FlowSolver {
   void project_start(const PorousMedium<D>& medium);
   void find_unknowns();
   bool incompressible(double water, double porosity) const;
-  void project_with_grains(const CellField<D>& give_way, double dt, MovingGrains<D>& grains);
+  void push_given(const PorousMedium<D>& medium);
+  void project_with_grains(const PorousMedium<D>& medium, const CellField<D>& give_way, double dt,
+                           MovingGrains<D>& grains);
   WallPressure<D> wall_pressure() const;
   void check_bounds() const;
   void check_finite() const;
@@ -148,6 +151,7 @@ class FlowSolver {
   InterfaceAdvection<D> interface_;
   MomentumTransport<D> momentum_;
   Predictor<D> predictor_;
+  DrainedGround<D> drained_;
   Projection<D> projection_;
   VelocityExtension<D> extension_;
   WaveZones<D> waves_;

@@ -1,5 +1,7 @@
 #include "flow/moving_grains.hpp"
 
+#include <algorithm>
+
 #include "flow/flow_checks.hpp"
 #include "numerics/loops.hpp"
 
@@ -22,6 +24,13 @@ struct FaceSystem {
   }
 };
 
+/// S^2 / k_r: drag of water in partly filled pores over that in full ones. Less than a thousandth
+/// of them hardly moves.
+double pull_of_part(const PoreFilling& filling, double saturation) {
+  const double s = std::max(saturation, 1e-3);
+  return saturation * saturation / filling.relative_permeability(s);
+}
+
 }  // namespace
 
 template <int D>
@@ -30,48 +39,67 @@ GrainsInWater<D>::GrainsInWater(const Grid<D>& grid)
       flux_(grid, "flux of the mixture", "m/s"),
       flux_mobility_(grid, "mobility of the mixture", "m2 s/kg"),
       grain_mobility_(grid, "mobility of the grains", "m2 s/kg"),
+      menisci_(grid, "force of menisci", "N/m3"),
       whole_(grid, "whole", "1", 1.0) {}
 
 template <int D>
 void GrainsInWater<D>::couple(const FaceVector<D>& capacity, const CellField<D>& water,
-                              const CellField<D>& porosity, const CellField<D>& unknown, double dt,
-                              FaceVector<D>& velocity, FaceVector<D>& mobility,
-                              MovingGrains<D>& grains) {
+                              const CellField<D>& porosity, const CellField<D>& unknown,
+                              const FaceVector<D>& reach, double dt, FaceVector<D>& velocity,
+                              FaceVector<D>& mobility, MovingGrains<D>& grains) {
   const Grid<D>& grid = *grid_;
   for (int axis = 0; axis < D; ++axis) {
     const std::ptrdiff_t s = grid.stride(axis);
     const double *w = water.data(), *room = porosity.data(), *governed = unknown.data();
     const double* theta = capacity[axis].data();
     double *v = velocity[axis].data(), *m = mobility[axis].data();
-    double *grain_v = grains.velocity[axis].data(), *flux = flux_[axis].data();
+    double* grain_v = grains.velocity[axis].data();
     double *flux_m = flux_mobility_[axis].data(), *grain_m = grain_mobility_[axis].data();
     for_each_offset(grid, bounding_faces(grid, axis), [&](std::ptrdiff_t at) {
       const double inertia = grains.inertia[axis].data()[at], share = grains.share[axis].data()[at];
       if (inertia > 0.0) {
-        // Where no pressure acts, water is what the cells hold: it pulls at grains by the square of
-        // its share of the pores, and nothing pulls at them in air.
+        // Where no pressure acts, water is what the cell that it comes from holds, and k_r of the
+        // permeability is left to it: S^2 theta^2 A / k_r pulls at the grains (NUMERICS C2).
         const bool wet = governed[at] + governed[at - s] > 0.0, open = theta[at] > 0.0;
-        const double filled = wet || !open ? 1.0 : (w[at] + w[at - s]) / (room[at] + room[at - s]);
+        const std::ptrdiff_t donor = v[at] > grain_v[at] ? at - s : at;
+        const bool known = wet || !open || room[donor] == 0.0;
+        const double filled = known ? 1.0 : std::clamp(w[donor] / room[donor], 0.0, 1.0);
+        const double pull = known ? 1.0 : pull_of_part(grains.filling, filled);
         const double resistance = grains.resistance[axis].data()[at];
         const FaceSystem face{inertia, open ? filled * theta[at] * dt / m[at] : 0.0,
-                              dt * filled * filled * theta[at] * theta[at] * resistance};
+                              dt * pull * theta[at] * theta[at] * resistance};
         const Pair now = face.solve(inertia * grain_v[at] + dt * grains.force[axis].data()[at],
                                     face.water_mass * v[at]);
-        const Pair answer = face.solve(dt * share, dt * theta[at]);
+        // At the surface only the grains below it feel the pressure, which falls over `reach`.
+        const bool surface = wet && governed[at] * governed[at - s] == 0.0;
+        const double below = surface ? std::min(reach[axis].data()[at], 1.0) : 1.0;
+        const Pair answer = face.solve(dt * share * below, dt * theta[at]);
         grain_v[at] = now.grains;
         grain_m[at] = answer.grains;
         if (open) v[at] = now.water, m[at] = answer.water;
       } else {
         grain_v[at] = grain_m[at] = 0.0;
       }
-      flux[at] = theta[at] * v[at] + share * grain_v[at];
       flux_m[at] = theta[at] * m[at] + share * grain_m[at];
     });
     for (int side = 0; side < 2; ++side) {
       if (!grid.touches(axis, side) || grid.wall(axis, side) == Wall::open) continue;
       zero_wall(grid, axis, side, grains.velocity[axis]);
-      zero_wall(grid, axis, side, flux_[axis]);
+      zero_wall(grid, axis, side, velocity[axis]);
     }
+  }
+}
+
+template <int D>
+void GrainsInWater<D>::find_flux(const FaceVector<D>& capacity, const FaceVector<D>& velocity,
+                                 const MovingGrains<D>& grains) {
+  for (int axis = 0; axis < D; ++axis) {
+    const double *theta = capacity[axis].data(), *v = velocity[axis].data();
+    const double *share = grains.share[axis].data(), *grain_v = grains.velocity[axis].data();
+    double* flux = flux_[axis].data();
+    for_each_offset(*grid_, bounding_faces(*grid_, axis), [&](std::ptrdiff_t at) {
+      flux[at] = theta[at] * v[at] + share[at] * grain_v[at];
+    });
   }
 }
 

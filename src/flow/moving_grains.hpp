@@ -1,5 +1,6 @@
 #pragma once
 /// Grains that share one pressure with the water around and between them (NUMERICS C2).
+#include "base/pore_filling.hpp"
 #include "grid/field.hpp"
 
 namespace mudlark {
@@ -20,6 +21,8 @@ struct MovingGrains {
   FaceVector<D> force;       ///< on the grains, pressure and drag apart: stress and weight [N/m3]
   FaceVector<D> resistance;  ///< A of the drag theta^2 A (v_f - v_s) on them: mu/kappa [Pa s/m2]
   FaceVector<D> velocity;    ///< v_s [m/s]: before the step, then after it
+  PoreFilling filling;       ///< how the pores let water pass where they are not full
+  bool hold_water = false;   ///< is there suction between them?
 };
 
 /// Momentum of water and grains on the faces of a step, drag implicit, and how both answer to a
@@ -34,21 +37,25 @@ class GrainsInWater {
 
   /// `velocity` is that of the water under all but pressure and grains, `mobility` its answer
   /// alone, dt / (rho + ...) [m2 s/kg]; both become those of the two together, as does
-  /// grains.velocity. `water` W and `unknown` (cells with a pressure) need ghosts. Closed walls
-  /// hold both. Owned and bounding faces.
+  /// grains.velocity. `water` W and `unknown` (cells with a pressure) need ghosts; `reach` is that
+  /// of the pressure at a face [cells]. Closed walls hold both. Owned and bounding faces.
   void couple(const FaceVector<D>& capacity, const CellField<D>& water,
-              const CellField<D>& porosity, const CellField<D>& unknown, double dt,
-              FaceVector<D>& velocity, FaceVector<D>& mobility, MovingGrains<D>& grains);
+              const CellField<D>& porosity, const CellField<D>& unknown, const FaceVector<D>& reach,
+              double dt, FaceVector<D>& velocity, FaceVector<D>& mobility, MovingGrains<D>& grains);
 
-  /// theta v_f + phi v_s [m/s], and what a unit pressure gradient takes from it and from v_s.
+  /// theta v_f + phi v_s from both velocities, which walls may have been given since.
+  void find_flux(const FaceVector<D>& capacity, const FaceVector<D>& velocity,
+                 const MovingGrains<D>& grains);
+  /// That flux [m/s], and what a unit pressure gradient takes from it and from v_s.
   FaceVector<D>& flux() { return flux_; }
   const FaceVector<D>& flux_mobility() const { return flux_mobility_; }
   const FaceVector<D>& grain_mobility() const { return grain_mobility_; }
+  FaceVector<D>& menisci() { return menisci_; }  ///< room for their force on the grains [N/m3]
   const FaceVector<D>& whole() const { return whole_; }  ///< 1 everywhere: the flux is whole
 
  private:
   const Grid<D>* grid_;
-  FaceVector<D> flux_, flux_mobility_, grain_mobility_, whole_;
+  FaceVector<D> flux_, flux_mobility_, grain_mobility_, menisci_, whole_;
 };
 
 extern template class GrainsInWater<2>;

@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/pore_filling.hpp"
 #include "base/varying.hpp"
 #include "flow/flow_sides.hpp"
 #include "flow/wave_source.hpp"
@@ -33,6 +34,7 @@ struct PorousGround {
   double keulegan_carpenter = 0.0;                   ///< KC [-]; 0: steady flow, no KC term
   double drag_coefficient = 0.0, drag_length = 0.0;  ///< C_D [-] and its length [m], cadmas
   double inertia_coefficient = 0.0;                  ///< C_A of the added mass C_A rho (1 - n) [-]
+  PoreFilling filling{PermeabilityCurve::power, 1.0};  ///< k_r = S: each share of water by itself
 };
 
 /// Impermeable body in the water.

@@ -11,6 +11,8 @@ PorousMedium<D>::PorousMedium(const Grid<D>& grid)
       linear_drag(grid, "linear drag", "Pa s/m2"),
       quadratic_drag(grid, "quadratic drag", "Pa s2/m3"),
       added_mass(grid, "added mass", "kg/m3"),
+      suction(grid, "suction", "Pa"),
+      drains(grid, "drains", "1"),
       give_way(grid, "give way", "1/(Pa s)") {}
 
 template struct PorousMedium<2>;

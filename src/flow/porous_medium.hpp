@@ -18,8 +18,10 @@ struct PorousMedium {
   FaceVector<D> quadratic_drag;  ///< B [Pa s2/m3]
   FaceVector<D> added_mass;  ///< C_A rho (1-n)/n [kg/m3]: what fixed grains add to the inertia of
                              ///< the water between them, per volume of it
-  CellField<D> give_way;     ///< volume rate per volume and pressure rise over the step [1/(Pa s)]:
-                             ///< how easily the ground gives way; 0 for rigid ground
+  CellField<D> suction;   ///< of the water's surface between grains, less where they are fewer [Pa]
+  CellField<D> drains;    ///< 1 where water in partly filled pores goes by a relative permeability
+  CellField<D> give_way;  ///< volume rate per volume and pressure rise over the step [1/(Pa s)]:
+                          ///< how easily the ground gives way; 0 for rigid ground
 };
 
 }  // namespace mudlark

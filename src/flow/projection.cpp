@@ -335,6 +335,63 @@ void Projection<D>::push(const FaceVector<D>& mobility, const CellField<D>& pres
   }
 }
 
+/// Calls body(face, suction, direction) on faces between water and air; direction from the water to
+/// the air. At the rim of the ground the suction fades with the grains: a surface that leaves them
+/// is held back by ever less, and comes to rest where what is left carries it.
+template <int D>
+template <class Body>
+void Projection<D>::for_each_meniscus(int axis, IndexBox<D> faces, const CellField<D>& suction,
+                                      Body&& body) const {
+  const Grid<D>& grid = *grid_;
+  const std::ptrdiff_t s = grid.stride(axis);
+  const double *unknown = unknown_.data(), *reach = distance_[axis].data();
+  const double* pull = suction.data();
+  for (int side = 0; side < 2; ++side)
+    if (grid.touches(axis, side)) {
+      if (side == 0)
+        ++faces.lower[axis];
+      else
+        faces.upper[axis] = grid.cells()[axis];
+    }
+  for_each_offset(grid, faces, [&](std::ptrdiff_t at) {
+    const bool above = unknown[at] > 0.0, below = unknown[at - s] > 0.0;
+    if (reach[at] == 0.0 || above == below) return;
+    const std::ptrdiff_t wet = above ? at : at - s, dry = above ? at - s : at;
+    const double here = pull[wet] + std::min(reach[at], 1.0) * (pull[dry] - pull[wet]);
+    if (here > 0.0) body(at, here, above ? -1.0 : 1.0);
+  });
+}
+
+template <int D>
+void Projection<D>::pull(const FaceVector<D>& mobility, const CellField<D>& suction,
+                         FaceVector<D>& velocity) const {
+  for (int axis = 0; axis < D; ++axis) {
+    const double *m = mobility[axis].data(), *reach = distance_[axis].data();
+    double* v = velocity[axis].data();
+    const double inverse = 1.0 / grid_->spacing()[axis];
+    for_each_meniscus(axis, bounding_faces(*grid_, axis), suction,
+                      [&](std::ptrdiff_t at, double here, double direction) {
+                        v[at] += direction * m[at] * here * inverse / reach[at];
+                      });
+  }
+}
+
+template <int D>
+void Projection<D>::hang(const CellField<D>& suction, FaceVector<D>& force) const {
+  for (int axis = 0; axis < D; ++axis) {
+    double* f = force[axis].data();
+    const double inverse = 1.0 / grid_->spacing()[axis];
+    const std::ptrdiff_t s = grid_->stride(axis);
+    for_each_meniscus(axis, grid_->owned_faces(axis), suction,
+                      [&](std::ptrdiff_t at, double here, double direction) {
+                        const double pull = direction * here * inverse;
+                        f[at - s] -= pull / 6.0;  // the cubic spline at its nodes
+                        f[at] -= pull * 2.0 / 3.0;
+                        f[at + s] -= pull / 6.0;
+                      });
+  }
+}
+
 template class Projection<2>;
 template class Projection<3>;
 

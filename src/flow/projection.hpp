@@ -37,6 +37,16 @@ class Projection {
   void push(const FaceVector<D>& mobility, const CellField<D>& pressure,
             FaceVector<D>& velocity) const;
 
+  /// What a surface at -suction instead of zero adds to push(): menisci between grains pull at the
+  /// water.
+  void pull(const FaceVector<D>& mobility, const CellField<D>& suction,
+            FaceVector<D>& velocity) const;
+  /// What they pull at the grains with, on which the water hangs [N/m3]: `suction` per area of the
+  /// surface, spread as points spread a jump of their stress. Adds to faces of neighbours too.
+  void hang(const CellField<D>& suction, FaceVector<D>& force) const;
+
+  /// Distance over which the pressure falls at a face, in mean cells; 0: no pressure acts on it.
+  const FaceVector<D>& reach() const { return distance_; }
   const CellField<D>& unknown() const { return unknown_; }  ///< 1 in cells with a pressure unknown
 
  private:
@@ -45,6 +55,9 @@ class Projection {
   double in_mean_cells(double xi, std::ptrdiff_t wet, int axis, int direction) const;
   double in_mean_cells(std::ptrdiff_t face, int axis) const;
   void find_wall_distances();
+  template <class Body>
+  void for_each_meniscus(int axis, IndexBox<D> faces, const CellField<D>& suction,
+                         Body&& body) const;
   double assemble(const FaceVector<D>& capacity, const FaceVector<D>& mobility,
                   const CellField<D>& target, const CellField<D>& give_way,
                   const FaceVector<D>& velocity);

@@ -42,7 +42,6 @@ std::vector<std::string> excluded(const CaseOptions& options) {
   };
   no(takes_implicit_steps(soil), "soil_solver.method = \"implicit\"");
   no(options.flow && options.flow->gas, "water.air = \"gas\"");
-  no(options.flow && !options.flow->sides.empty(), "[[opening]], or a [[wave]] at a side,");
   no(!soil.boundaries.empty(), "[[boundary]]");
   no(!soil.stages.empty(), "[[stage]]");
   no(soil.start_in_equilibrium.has_value(), "soil_solver.start_in_equilibrium");
@@ -59,10 +58,67 @@ std::vector<std::string> excluded(const CaseOptions& options) {
     for (std::size_t side = 0; side < 2; ++side) {
       const Wall wall = options.domain.walls[a][side];
       no(wall == Wall::friction, "a wall of type \"friction\"");
-      no(wall == Wall::open && !(a == dimension - 1 && side == 1),
-         "an \"open\" wall other than the upper one");
     }
   return words;
+}
+
+/// Cells that soil keeps away from sides that water flows through, as wide as its kernel reaches.
+constexpr int clear_cells = 2;
+
+/// A side that water flows through as given, or without end where it is open.
+struct ThroughSide {
+  std::string name;
+  int axis, side;
+  Point3 from, to;
+};
+
+std::vector<ThroughSide> sides_of_water(const CaseOptions& options) {
+  std::vector<ThroughSide> all;
+  const int dimension = options.domain.dimension;
+  if (options.flow)
+    for (const FlowSideOptions& side : options.flow->sides)
+      all.push_back({fmt::format("\"{}\"", side.name), side.axis, side.side, side.from, side.to});
+  constexpr double far = FlowSideOptions::infinite;
+  for (int a = 0; a < dimension; ++a)
+    for (int side = 0; side < 2; ++side)
+      if (options.domain.walls[static_cast<std::size_t>(a)][static_cast<std::size_t>(side)] ==
+              Wall::open &&
+          !(a == dimension - 1 && side == 1))
+        all.push_back({fmt::format("the open side {}_{}", side == 0 ? "lower" : "upper",
+                                   "xyz"[coordinate(a, dimension)]),
+                       a,
+                       side,
+                       {-far, -far, -far},
+                       {far, far, far}});
+  return all;
+}
+
+/// Soil is not held where water passes a side, and what it would do there is not computed.
+void keep_clear(Section& root, const CaseOptions& options) {
+  const DomainOptions& domain = options.domain;
+  const int dimension = domain.dimension;
+  for (const ThroughSide& side : sides_of_water(options)) {
+    Point3 lower{-1.0, -1.0, -1.0}, upper{1.0, 1.0, 1.0};
+    double clear = 0.0;
+    for (int a = 0; a < dimension; ++a) {
+      const auto axis = static_cast<std::size_t>(a);
+      const std::size_t c = coordinate(a, dimension);
+      lower[c] = std::max(domain.lower[axis], side.from[c]);
+      upper[c] = std::min(domain.upper[axis], side.to[c]);
+      if (a != side.axis) continue;
+      clear = clear_cells * (domain.upper[axis] - domain.lower[axis]) / domain.cells[axis];
+      (side.side == 0 ? upper : lower)[c] =
+          side.side == 0 ? domain.lower[axis] + clear : domain.upper[axis] - clear;
+    }
+    for (const SoilBody& body : options.soil->bodies)
+      if (fraction_inside(body.shape, lower, upper, dimension) > 0.0)
+        root.reading().report.add(
+            root.place("soil"),
+            fmt::format("soil \"{}\" stands at {}, through which water flows; with "
+                        "coupling.mode = \"unified\"\n  soil keeps {} cells, {:g} m, clear of "
+                        "such sides (nothing would hold it there).",
+                        body.name, side.name, clear_cells, clear));
+  }
 }
 
 }  // namespace
@@ -73,6 +129,7 @@ void check_unified(Section& root, CaseOptions& options) {
   for (const std::string& what : excluded(options))
     report.add(root.place("coupling"),
                fmt::format("coupling.mode = \"unified\" does not go with {} yet", what));
+  if (report.empty()) keep_clear(root, options);
   const auto& bodies = options.soil->bodies;
   for (const SoilBody& body : bodies)
     if (body.grain_density != bodies.front().grain_density)
@@ -87,6 +144,12 @@ void check_unified(Section& root, CaseOptions& options) {
       report.add(root.place("soil"),
                  fmt::format("with coupling.mode = \"unified\" all soils have one grain_diameter, "
                              "or none has any, and soil \"{}\" differs from soil \"{}\"",
+                             body.name, bodies.front().name));
+  for (const SoilBody& body : bodies)
+    if (&body != &bodies.front() && !same_curve(body.filling, bodies.front().filling))
+      report.add(root.place("soil"),
+                 fmt::format("with coupling.mode = \"unified\" all soils have one "
+                             "relative_permeability, and soil \"{}\" has another than soil \"{}\"",
                              body.name, bodies.front().name));
   if (options.flow)
     for (const WaterBody& water : options.flow->bodies)

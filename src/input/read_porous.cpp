@@ -136,6 +136,10 @@ void read_porous(Section& root, CaseOptions& options, std::vector<NamedShape>& g
                         .reason = "the share of pores in the volume lies between 0 and 1",
                         .cure = "Rubble has about 0.4."});
     read_drag(section, ground, *options.flow);
+    ground.filling = read_pore_filling(section, ground.filling);
+    if (ground.filling.suction > 0.0 && options.flow->gas)
+      section.fail("suction", "water that gas surrounds has no surface of its own to hold it",
+                   "Leave out air = \"gas\" under [water], or the suction.");
     section.finish();
     if (!shape) continue;
     ground.shape = *shape;

@@ -171,6 +171,11 @@ void read_pore_water(Section& section, SoilBody& body, const WaterProperties& wa
       body.permeability_law);
   if (unified && body.permeability_law != PermeabilityLaw::constant)
     section.fail("permeability_law", "pore_water = \"unified\" has a constant permeability so far");
+  if (unified)
+    body.filling = read_pore_filling(section, body.filling);
+  else
+    for (const char* key : {"relative_permeability", "suction"})
+      section.forbid(key, "pores that are not full are known with pore_water = \"unified\"");
   if (section.has("initial_pore_pressure")) {
     if (wet)
       body.initial_pore_pressure = section.varying("initial_pore_pressure", quantity::pressure, {});

@@ -135,6 +135,8 @@ std::optional<Shape> read_stl(Section& shape);
 /// gravity.
 std::optional<double> read_permeability(Section& section, double density, double viscosity,
                                         bool required);
+/// relative_permeability and suction of pores that are not full.
+PoreFilling read_pore_filling(Section& section, PoreFilling fallback);
 /// Reports bodies of ground, or rigid ones, that fill the same space.
 void check_overlaps(Reading& reading, const std::vector<NamedShape>& grounds);
 

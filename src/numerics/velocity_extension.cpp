@@ -130,7 +130,7 @@ void VelocityExtension<D>::grow_layer(int component, int layer, double* velocity
 template <int D>
 void VelocityExtension<D>::extend(const CellField<D>& unknown, const CellField<D>& water,
                                   const CellField<D>& porosity, const FaceVector<D>& capacity,
-                                  FaceVector<D>& velocity) {
+                                  const CellField<D>& drains, FaceVector<D>& velocity) {
   const Grid<D>& grid = *grid_;
   for (int component = 0; component < D; ++component)
     mark(component, unknown, water, porosity, capacity);
@@ -149,19 +149,20 @@ void VelocityExtension<D>::extend(const CellField<D>& unknown, const CellField<D
     });
   }
   ghosts_.update_velocity(velocity);
-  keep_from_closing(unknown, water, porosity, velocity);
+  keep_from_closing(unknown, water, porosity, drains, velocity);
 }
 
 /// Speed by which each free face of a closing cell has to move outwards so that the cell keeps its
 /// volume.
 template <int D>
 void VelocityExtension<D>::find_squeeze(const double* unknown, const double* water,
-                                        const double* porosity, const FaceVector<D>& velocity) {
+                                        const double* porosity, const double* drains,
+                                        const FaceVector<D>& velocity) {
   const Grid<D>& grid = *grid_;
   double* squeeze = squeeze_.data();
   for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) {
     squeeze[at] = 0.0;
-    if (unknown[at] > 0.0 || water[at] <= dust * porosity[at]) return;
+    if (unknown[at] > 0.0 || drains[at] > 0.0 || water[at] <= dust * porosity[at]) return;
     double opening = 0.0, free_sides = 0.0;
     for (int axis = 0; axis < D; ++axis) {
       const double* v = velocity[axis].data();
@@ -179,7 +180,7 @@ void VelocityExtension<D>::find_squeeze(const double* unknown, const double* wat
 template <int D>
 void VelocityExtension<D>::keep_from_closing(const CellField<D>& unknown, const CellField<D>& water,
                                              const CellField<D>& porosity,
-                                             FaceVector<D>& velocity) {
+                                             const CellField<D>& drains, FaceVector<D>& velocity) {
   const Grid<D>& grid = *grid_;
   double flying_faces = 0.0;
   for (int axis = 0; axis < D; ++axis) {
@@ -190,7 +191,7 @@ void VelocityExtension<D>::keep_from_closing(const CellField<D>& unknown, const 
   if (max_over_ranks(grid, flying_faces) == 0.0) return;
   ghosts_.exchange(state_);
   for (int pass = 0; pass < 3; ++pass) {
-    find_squeeze(unknown.data(), water.data(), porosity.data(), velocity);
+    find_squeeze(unknown.data(), water.data(), porosity.data(), drains.data(), velocity);
     ghosts_.update(squeeze_);
     const double* squeeze = squeeze_.data();
     for (int axis = 0; axis < D; ++axis) {

@@ -14,11 +14,12 @@ class VelocityExtension {
   /// what they have; those without water take the mean of their neighbours in two more layers, and
   /// zero beyond. Afterwards water that flies freely is kept from being squeezed: a cell without
   /// pressure may open but not close (a thin film on the floor would otherwise fall for ever).
+  /// In cells of `drains` it may: drag holds it, and they fill until they have a pressure.
   /// Faces without `capacity` are closed like walls; films on bodies do not fly: they go with the
   /// water that reaches them within three cells, or lie still. All inputs and the result have valid
   /// ghosts.
   void extend(const CellField<D>& unknown, const CellField<D>& water, const CellField<D>& porosity,
-              const FaceVector<D>& capacity, FaceVector<D>& velocity);
+              const FaceVector<D>& capacity, const CellField<D>& drains, FaceVector<D>& velocity);
 
  private:
   void mark(int component, const CellField<D>& unknown, const CellField<D>& water,
@@ -27,9 +28,10 @@ class VelocityExtension {
                          double* velocity);
   void grow_layer(int component, int layer, double* velocity);
   void keep_from_closing(const CellField<D>& unknown, const CellField<D>& water,
-                         const CellField<D>& porosity, FaceVector<D>& velocity);
+                         const CellField<D>& porosity, const CellField<D>& drains,
+                         FaceVector<D>& velocity);
   void find_squeeze(const double* unknown, const double* water, const double* porosity,
-                    const FaceVector<D>& velocity);
+                    const double* drains, const FaceVector<D>& velocity);
 
   const Grid<D>* grid_;
   Ghosts<D> ghosts_;

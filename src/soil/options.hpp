@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/pore_filling.hpp"
 #include "base/varying.hpp"
 #include "base/vec.hpp"
 #include "grid/shape.hpp"
@@ -40,6 +41,7 @@ struct SoilBody {
   /// that of the permeability.
   double grain_diameter = 0.0;
   PermeabilityLaw permeability_law = PermeabilityLaw::constant;
+  PoreFilling filling;      ///< unified: of pores that are not full
   int points_per_cell = 4;  ///< total per full cell; a D-th power (4, 9, 16 in 2D; 8, 27, 64 in 3D)
   SoilLawOptions law;
   StrainMeasure strain = StrainMeasure::hencky;

@@ -47,13 +47,16 @@ int body_at(const SoilOptions& options, std::size_t stage, const Point3& place) 
   return -1;
 }
 
-/// Weight that grains give to those below them, per volume [N/m^D].
-double submerged_unit_weight(const SoilOptions& options, const SoilBody& body, const Point3& place,
-                             double gravity) {
+bool is_wet(const SoilOptions& options, const SoilBody& body, const Point3& place) {
   const auto floods = [&](const Shape& water) { return water.contains(place); };
-  const bool wet = body.pore_water == PoreWater::two_phase ||
-                   (body.pore_water == PoreWater::unified &&
-                    std::any_of(options.flooded.begin(), options.flooded.end(), floods));
+  return body.pore_water == PoreWater::two_phase ||
+         (body.pore_water == PoreWater::unified &&
+          std::any_of(options.flooded.begin(), options.flooded.end(), floods));
+}
+
+/// Weight that grains give to those below them, per volume [N/m^D].
+double submerged_unit_weight(const SoilOptions& options, const SoilBody& body, bool wet,
+                             double gravity) {
   const double buoyancy = wet ? options.water_density : 0.0;
   return (1.0 - body.porosity) * (body.grain_density - buoyancy) * gravity;
 }
@@ -64,17 +67,22 @@ struct Overburden {
 };
 
 /// Sums the column of soil above a place in steps of the lattice, half a step of its own included.
+/// Water that hangs in the pores pulls at the grains where its surface is.
 template <int D>
 Overburden overburden(const Grid<D>& grid, const SoilOptions& options, std::size_t stage,
                       const Vec<D>& place, double step) {
   const double gravity = -grid.gravity()[D - 1];
   Overburden sum;
   Vec<D> x = place;
+  double held = 0.0;  // suction of soil that is wet, of the sample below
   for (double share = 0.5; x[D - 1] < grid.upper()[D - 1]; share = 1.0, x[D - 1] += step) {
     const int number = body_at(options, stage, to_point3(x));
     if (number < 0) continue;
     const SoilBody& body = options.bodies[static_cast<std::size_t>(number)];
-    sum.effective += share * step * submerged_unit_weight(options, body, to_point3(x), gravity);
+    const bool wet = is_wet(options, body, to_point3(x));
+    sum.effective += share * step * submerged_unit_weight(options, body, wet, gravity);
+    if (!wet) sum.effective += held;
+    held = wet ? body.filling.suction : 0.0;
     if (body.pore_water == PoreWater::two_phase)
       sum.water += share * step * options.water_density * gravity;
   }

@@ -1,5 +1,9 @@
 /// Steps of the soil whose pore water is the flow's: its faces are solved by the coupling.
+#include <algorithm>
+#include <array>
+
 #include "soil/soil_solver.hpp"
+#include "soil/transfer.hpp"
 #include "soil/walls.hpp"
 
 namespace mudlark {
@@ -44,6 +48,23 @@ void SoilSolver<D>::press_solids(FaceVector<D>& velocity, double dt) {
   for (Solid& solid : solids_) solid.begin_outer_step(), solid.book(dt);
 }
 
+template <int D>
+void SoilSolver<D>::suction(CellField<D>& field) {
+  field.fill(0.0);
+  for (std::size_t b = 0; b < points_.size(); ++b) {
+    const double weight = options_.bodies[b].filling.suction / (1.0 - constants_[b].start_porosity);
+    if (weight > 0.0)
+      add_solid_fraction(*grid_, points_[b], constants_[b].grain_density, options_.kernel, weight,
+                         field);
+  }
+  const std::array<double*, 1> one{field.data()};
+  halo_.add_to_owners(one);
+  fold_cells(sides_, active_, field);
+  halo_.exchange(one);
+}
+
+template void SoilSolver<2>::suction(CellField<2>&);
+template void SoilSolver<3>::suction(CellField<3>&);
 template void SoilSolver<2>::move_with(const FaceVector<2>&, const FaceVector<2>&, double);
 template void SoilSolver<3>::move_with(const FaceVector<3>&, const FaceVector<3>&, double);
 template void SoilSolver<2>::press_solids(FaceVector<2>&, double);

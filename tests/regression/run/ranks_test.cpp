@@ -38,6 +38,10 @@ TEST_F(Ranks, GiveTheSameDamBreakOverGrainsThatYield) {
   expect_the_same_on_all_ranks("one_water_grains_2d");
 }
 
+TEST_F(Ranks, GiveTheSameDryBankThatTakesInWater) {
+  expect_the_same_on_all_ranks("one_water_partly_filled_2d");
+}
+
 TEST_F(Ranks, GiveTheSameWallPushedThroughASubmergedBed) {
   expect_the_same_on_all_ranks("one_water_solid_2d");
 }

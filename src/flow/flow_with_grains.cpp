@@ -1,0 +1,51 @@
+/// The step of water that shares its pressure with grains (NUMERICS C2), and pressures that are
+/// given.
+#include "flow/flow_solver.hpp"
+#include "numerics/loops.hpp"
+
+namespace mudlark {
+
+/// What pressures on open sides and suction of the ground do to the water's velocity; the pressure
+/// solve takes them for zero.
+template <int D>
+void FlowSolver<D>::push_given(const PorousMedium<D>& medium) {
+  sides_.push(mobility_, projection_.unknown(), velocity_);
+  if (!gas_) projection_.pull(mobility_, medium.suction, velocity_);
+}
+
+/// One pressure makes the flux of water and grains together free of divergence and moves both.
+template <int D>
+void FlowSolver<D>::project_with_grains(const PorousMedium<D>& medium, const CellField<D>& give_way,
+                                        double dt, MovingGrains<D>& grains) {
+  if (!with_grains_) with_grains_.emplace(*grid_);
+  GrainsInWater<D>& both = *with_grains_;
+  if (grains.hold_water) {
+    for (int a = 0; a < D; ++a) both.menisci()[a].fill(0.0);
+    projection_.hang(medium.suction, both.menisci());
+    ghosts_.add_to_owners(both.menisci());
+    for (int a = 0; a < D; ++a)
+      for_each_offset(*grid_, bounding_faces(*grid_, a), [&](std::ptrdiff_t at) {
+        grains.force[a].data()[at] += both.menisci()[a].data()[at];
+      });
+  }
+  both.couple(capacity_, water_, porosity_, projection_.unknown(), projection_.reach(), dt,
+              velocity_, mobility_, grains);
+  hold_sides();
+  push_given(medium);
+  sides_.push(both.grain_mobility(), projection_.unknown(), grains.velocity);
+  projection_.pull(both.grain_mobility(), medium.suction, grains.velocity);
+  both.find_flux(capacity_, velocity_, grains);
+  last_solve_ = projection_.project(both.whole(), both.flux_mobility(), target_, give_way,
+                                    pressure_, both.flux(), options_.pressure_tolerance / dt);
+  projection_.push(mobility_, pressure_, velocity_);
+  projection_.push(both.grain_mobility(), pressure_, grains.velocity);
+}
+
+template void FlowSolver<2>::push_given(const PorousMedium<2>&);
+template void FlowSolver<3>::push_given(const PorousMedium<3>&);
+template void FlowSolver<2>::project_with_grains(const PorousMedium<2>&, const CellField<2>&,
+                                                 double, MovingGrains<2>&);
+template void FlowSolver<3>::project_with_grains(const PorousMedium<3>&, const CellField<3>&,
+                                                 double, MovingGrains<3>&);
+
+}  // namespace mudlark
