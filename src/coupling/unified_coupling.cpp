@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 
 namespace mudlark {
@@ -18,7 +19,6 @@ template <int D>
 UnifiedCoupling<D>::UnifiedCoupling(const Grid<D>& grid, const SoilSolver<D>& soil)
     : grid_(&grid),
       halo_(grid),
-      grain_density_(soil.options().bodies.front().grain_density),
       room_(grid),
       drag_(grid, soil.options()),
       pressure_(grid, "pressure", "Pa"),
@@ -58,6 +58,20 @@ void UnifiedCoupling<D>::move_grains(SoilSolver<D>& soil, double dt) {
   soil.move_with(grains_.velocity, change_, dt);
 }
 
+/// Local damping (Cundall 1987) [N/m3]: a share of the force that is not in balance, against the
+/// motion. What was not in balance is what moved the grains in the last step, less the damping that
+/// it had: pressure and drag of the coming step, which the water has a part in, are found after.
+template <int D>
+double UnifiedCoupling<D>::damping_force(int axis, const Index<D>& face, double velocity,
+                                         double damping) const {
+  if (last_step_ <= 0.0 || velocity == 0.0) return 0.0;
+  const double change = change_[axis][face];
+  const double before = grains_.velocity[axis][face] - change;
+  const double had = before == 0.0 ? 1.0 : change * before > 0.0 ? 1.0 - damping : 1.0 + damping;
+  const double force = grains_.inertia[axis][face] * std::abs(change) / (had * last_step_);
+  return -std::copysign(damping * force, velocity);
+}
+
 /// Sums of the points as densities. The share of the grains is that of their mass on the same
 /// face, not one minus the cells' porosity: then grains at rest in water at rest weigh exactly what
 /// they weigh under water, wherever the points stand (docs/decisions/0070).
@@ -66,17 +80,20 @@ void UnifiedCoupling<D>::load_grains(const FlowSolver<D>& flow, const Space<D>& 
                                      SoilSolver<D>& soil, double dt) {
   const NodeField<NodeSums, D>& sums = soil.load_faces(dt);
   const double per_volume = 1.0 / grid_->cell_volume();
+  const double damping = soil.options().damping, inertia = soil.options().mass_scaling;
   for (int a = 0; a < D; ++a) {
     const auto& field = sums[static_cast<std::size_t>(a)];
     for_each(grid_->owned_faces(a), [&](const Index<D>& face) {
       const bool inside = soil.active().contains(face);
       const NodeSums sum = inside ? field[face] : NodeSums{};
-      const double share = sum.grain_mass * per_volume / grain_density_;
+      const double share = sum.volume * per_volume;
       const bool carries = share > least_share;
+      const double velocity = carries ? sum.grain_momentum / sum.grain_mass : 0.0;
       grains_.share[a][face] = carries ? share : 0.0;
-      grains_.inertia[a][face] = carries ? sum.grain_mass * per_volume : 0.0;
-      grains_.force[a][face] = carries ? sum.mixture_force * per_volume : 0.0;
-      grains_.velocity[a][face] = carries ? sum.grain_momentum / sum.grain_mass : 0.0;
+      grains_.inertia[a][face] = carries ? inertia * sum.grain_mass * per_volume : 0.0;
+      const double damped = damping > 0.0 ? damping_force(a, face, velocity, damping) : 0.0;
+      grains_.force[a][face] = carries ? sum.mixture_force * per_volume + damped : 0.0;
+      grains_.velocity[a][face] = velocity;
     });
     before_[a].copy_values_from(grains_.velocity[a]);
   }
@@ -93,6 +110,7 @@ void UnifiedCoupling<D>::load_grains(const FlowSolver<D>& flow, const Space<D>& 
       resistance[static_cast<std::size_t>(a)] = grains_.resistance[a].data();
     halo_.exchange(resistance);
   }
+  last_step_ = dt;
 }
 
 /// On the part of a face that lies in a body grains share no flux with the water, only its
@@ -165,6 +183,7 @@ void UnifiedCoupling<D>::initialise(const FlowSolver<D>& flow, const Space<D>& s
   note_pore_pressure(flow, soil);
   load_grains(flow, space, soil, 1.0);
   change_.fill(0.0);
+  last_step_ = 0.0;
 }
 
 template class UnifiedCoupling<2>;

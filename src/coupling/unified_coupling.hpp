@@ -41,24 +41,26 @@ class UnifiedCoupling {
     a.faces("grain velocity", grains_.velocity);
     a.faces("grain change", change_);
     a.cells("continued pressure", pressure_);
+    a.number("coupling/last step", last_step_);
   }
 
  private:
+  double damping_force(int axis, const Index<D>& face, double velocity, double damping) const;
   void note_pore_pressure(const FlowSolver<D>& flow, SoilSolver<D>& soil);
   void extend_into_solids(const FlowSolver<D>& flow);
   void push_beside_solids(const Space<D>& space);
 
   const Grid<D>* grid_;
   Halo<D> halo_;
-  double grain_density_;
   SoilInWater<D> room_;
   GrainDrag<D> drag_;
   CellField<D> pressure_;  ///< of the water, continued into bodies and behind closed sides [Pa]
   std::optional<PressureExtension<D>> extension_;  ///< where there are bodies
   CellField<D> open_, wet_;                        ///< cells that are no body; with water
   MovingGrains<D> grains_;
-  FaceVector<D> change_;  ///< of the grains' velocity over the last step [m/s]
-  FaceVector<D> before_;  ///< that velocity before it [m/s]
+  double last_step_ = 0.0;  ///< [s]
+  FaceVector<D> change_;    ///< of the grains' velocity over the last step [m/s]
+  FaceVector<D> before_;    ///< that velocity before it [m/s]
 };
 
 extern template class UnifiedCoupling<2>;

@@ -237,9 +237,10 @@ void FlowSolver<D>::find_target(const PorousMedium<D>& medium, double dt, double
   const double* theta = porosity_.data();
   const double* porosity = medium.porosity.data();
   const double* volume = medium.space.volume.data();
+  const double* stored = storage_ ? storage_->stored().data() : nullptr;
   double* target = target_.data();
   for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) {
-    const double given = volume[at] * porosity[at];
+    const double given = volume[at] * porosity[at] + (stored ? stored[at] : 0.0);
     const double rate = porosity[at] < 1.0 ? std::min(drift_feedback / dt, most) : 1.0 / dt;
     target[at] = dt > 0.0 ? rate * (theta[at] - given) : 0.0;
   });

@@ -24,6 +24,7 @@
 #include "flow/solid_load.hpp"
 #include "flow/turbulence.hpp"
 #include "flow/two_fluids.hpp"
+#include "flow/water_storage.hpp"
 #include "numerics/interface_advection.hpp"
 #include "numerics/momentum_transport.hpp"
 #include "numerics/velocity_extension.hpp"
@@ -51,6 +52,9 @@ class FlowSolver {
   /// free of divergence, and the pressure that holds the water at rest.
   void initialise(const PorousMedium<D>& medium);
 
+  /// Water that shares its pressure with grains gives way to it, by 1/K [1/Pa]. Before
+  /// initialise().
+  void let_water_give_way(double compressibility) { storage_.emplace(*grid_, compressibility); }
   /// Room that bodies leave in the medium where they are now: before initialise().
   void place_solids(PorousMedium<D>& medium) { solids_.fill(medium); }
   /// What follows from a state just loaded.
@@ -117,6 +121,7 @@ class FlowSolver {
     solids_.archive(a);
     ghosts_.exchange(capacity_);
     if (turbulence_) turbulence_->archive(a);
+    if (storage_) storage_->archive(a);
     update_derived();
     find_sides(time_);
   }
@@ -159,6 +164,7 @@ class FlowSolver {
   WaveSources<D> sources_;
   std::optional<TwoFluids<D>> gas_;
   std::optional<Turbulence<D>> turbulence_;
+  std::optional<WaterStorage<D>> storage_;  ///< where water that gives way meets grains
   std::optional<GrainsInWater<D>> with_grains_;
   SolidBodies<D> solids_;
   CellField<D> water_, porosity_, pressure_, saturation_;

@@ -35,8 +35,11 @@ void FlowSolver<D>::project_with_grains(const PorousMedium<D>& medium, const Cel
   sides_.push(both.grain_mobility(), projection_.unknown(), grains.velocity);
   projection_.pull(both.grain_mobility(), medium.suction, grains.velocity);
   both.find_flux(capacity_, velocity_, grains);
-  last_solve_ = projection_.project(both.whole(), both.flux_mobility(), target_, give_way,
+  const CellField<D>& gives_way =
+      storage_ ? storage_->with_water(give_way, water_, pressure_, dt) : give_way;
+  last_solve_ = projection_.project(both.whole(), both.flux_mobility(), target_, gives_way,
                                     pressure_, both.flux(), options_.pressure_tolerance / dt);
+  if (storage_) storage_->count(water_, projection_.unknown(), pressure_);
   projection_.push(mobility_, pressure_, velocity_);
   projection_.push(both.grain_mobility(), pressure_, grains.velocity);
 }

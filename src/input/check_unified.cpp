@@ -8,15 +8,13 @@
 namespace mudlark {
 namespace {
 
-bool is_unified(const SoilBody& body) { return body.pore_water == PoreWater::unified; }
-
 /// Soils and coupling must say the same.
 bool agree(Section& root, const CaseOptions& options) {
   Report& report = root.reading().report;
   const bool unified = options.coupling.mode == CouplingMode::unified;
   const auto& bodies = options.soil->bodies;
   const auto other = std::find_if(bodies.begin(), bodies.end(), [&](const SoilBody& body) {
-    return is_unified(body) != unified;
+    return (body.pore_water == PoreWater::unified) != unified;
   });
   if (other == bodies.end()) return unified;
   if (unified)
@@ -42,12 +40,23 @@ std::vector<std::string> excluded(const CaseOptions& options) {
   };
   no(takes_implicit_steps(soil), "soil_solver.method = \"implicit\"");
   no(options.flow && options.flow->gas, "water.air = \"gas\"");
-  no(!soil.boundaries.empty(), "[[boundary]]");
-  no(!soil.stages.empty(), "[[stage]]");
+  const auto has = [&](auto&& kind) {
+    return std::any_of(soil.boundaries.begin(), soil.boundaries.end(), kind);
+  };
+  no(has([](const SoilBoundary& part) { return part.for_water; }), "water through a [[boundary]]");
+  no(has([](const SoilBoundary& part) {
+       return part.for_grains && part.grains != GrainSide::slip && part.grains != GrainSide::fixed;
+     }),
+     "a [[boundary]] whose grains are neither \"slip\" nor \"fixed\"");
+  no(has([&](const SoilBoundary& part) {
+       return options.domain.walls[static_cast<std::size_t>(part.axis)]
+                                  [static_cast<std::size_t>(part.side)] == Wall::open;
+     }),
+     "a [[boundary]] on an \"open\" wall");
   no(soil.start_in_equilibrium.has_value(), "soil_solver.start_in_equilibrium");
   no(soil.stop_when_static.has_value(), "soil_solver.stop_when_static");
-  no(soil.damping > 0.0 || soil.water_damping.value_or(0.0) > 0.0, "soil_solver.damping");
-  no(soil.mass_scaling != 1.0, "soil_solver.mass_scaling");
+  no(soil.water_damping.value_or(soil.damping) != soil.damping,
+     "a soil_solver.water_damping of its own, as the water is the flow's,");
   no(soil.load_form != LoadForm::virtual_stress, "soil_solver.load_form = \"facets\"");
   no(soil.kernel == Kernel::linear, "soil_solver.kernel = \"linear\"");
   no(soil.body_acceleration.has_value(), "soil_solver.body_acceleration");
@@ -72,12 +81,22 @@ struct ThroughSide {
   Point3 from, to;
 };
 
+/// A source in a closed floor: water rises through it as given, and grains stand on it.
+bool holds_grains(const CaseOptions& options, const FlowSideOptions& side) {
+  const auto axis = static_cast<std::size_t>(side.axis);
+  return side.axis == options.domain.dimension - 1 && side.side == 0 &&
+         options.domain.walls[axis][0] != Wall::open &&
+         (side.flow == SideFlow::velocity || side.flow == SideFlow::discharge);
+}
+
 std::vector<ThroughSide> sides_of_water(const CaseOptions& options) {
   std::vector<ThroughSide> all;
   const int dimension = options.domain.dimension;
   if (options.flow)
-    for (const FlowSideOptions& side : options.flow->sides)
+    for (const FlowSideOptions& side : options.flow->sides) {
+      if (holds_grains(options, side)) continue;
       all.push_back({fmt::format("\"{}\"", side.name), side.axis, side.side, side.from, side.to});
+    }
   constexpr double far = FlowSideOptions::infinite;
   for (int a = 0; a < dimension; ++a)
     for (int side = 0; side < 2; ++side)
@@ -132,19 +151,18 @@ void check_unified(Section& root, CaseOptions& options) {
   if (report.empty()) keep_clear(root, options);
   const auto& bodies = options.soil->bodies;
   for (const SoilBody& body : bodies)
-    if (body.grain_density != bodies.front().grain_density)
-      report.add(
-          root.place("soil"),
-          fmt::format("with coupling.mode = \"unified\" all soils have grains of one density, "
-                      "and soil \"{}\" has {:g} kg/m3, soil \"{}\" {:g} kg/m3",
-                      body.name, body.grain_density, bodies.front().name,
-                      bodies.front().grain_density));
-  for (const SoilBody& body : bodies)
     if (body.grain_diameter != bodies.front().grain_diameter)
       report.add(root.place("soil"),
                  fmt::format("with coupling.mode = \"unified\" all soils have one grain_diameter, "
                              "or none has any, and soil \"{}\" differs from soil \"{}\"",
                              body.name, bodies.front().name));
+  for (const SoilBody& body : bodies)
+    if (body.grain_diameter > 0.0 && body.grain_density != bodies.front().grain_density)
+      report.add(root.place("soil"),
+                 fmt::format("soils with a grain_diameter have grains of one density, and soil "
+                             "\"{}\" has {:g} kg/m3, soil \"{}\" {:g} kg/m3",
+                             body.name, body.grain_density, bodies.front().name,
+                             bodies.front().grain_density));
   for (const SoilBody& body : bodies)
     if (&body != &bodies.front() && !same_curve(body.filling, bodies.front().filling))
       report.add(root.place("soil"),

@@ -159,6 +159,8 @@ void read_pore_water(Section& section, SoilBody& body, const WaterProperties& wa
                                               body.pore_water);
   const bool wet = body.pore_water == PoreWater::two_phase;
   const bool unified = body.pore_water == PoreWater::unified;
+  if (unified)
+    soil.water_bulk_modulus = water.bulk_modulus.value_or(std::numeric_limits<double>::infinity());
   if (wet)
     read_formulation(section, water, soil);
   else
@@ -169,8 +171,6 @@ void read_pore_water(Section& section, SoilBody& body, const WaterProperties& wa
       "permeability_law",
       {{"constant", PermeabilityLaw::constant}, {"kozeny-carman", PermeabilityLaw::kozeny_carman}},
       body.permeability_law);
-  if (unified && body.permeability_law != PermeabilityLaw::constant)
-    section.fail("permeability_law", "pore_water = \"unified\" has a constant permeability so far");
   if (unified)
     body.filling = read_pore_filling(section, body.filling);
   else

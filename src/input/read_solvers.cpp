@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "input/sections.hpp"
+#include "input/unified.hpp"
 
 namespace mudlark {
 namespace {
@@ -76,9 +77,10 @@ void read_statics(Section& section, SoilOptions& soil, bool water_flows) {
                                       std::isnan(soil.damping) ? 0.0 : soil.damping);
   soil.mass_scaling =
       section.number("mass_scaling", quantity::number, mass_scaling_bounds(), soil.mass_scaling);
-  if (soil.mass_scaling > 1.0 && water_flows)
+  if (soil.mass_scaling > 1.0 && water_flows && !is_unified(soil))
     section.fail("mass_scaling",
-                 "water that flows would meet a soil of false inertia: [[water.body]] excludes it");
+                 "water that flows would meet a soil of false inertia: [[water.body]] excludes it",
+                 "With pore_water = \"unified\" it goes: only grains are scaled then.");
   if (section.has("start_in_equilibrium")) {
     if (water_flows)
       section.fail("start_in_equilibrium",

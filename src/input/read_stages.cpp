@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "input/sections.hpp"
+#include "input/unified.hpp"
 
 namespace mudlark {
 namespace {
@@ -56,7 +57,7 @@ void check_method(Stage& stage, const SoilOptions& soil, bool water_flows) {
     section.fail("mass_scaling", "a [[solid]] has the same inertia throughout",
                  "Write mass_scaling under [soil_solver].");
   if (!water_flows) return;
-  if (own.mass_scaling.value_or(1.0) > 1.0)
+  if (own.mass_scaling.value_or(1.0) > 1.0 && !is_unified(soil))
     section.fail("mass_scaling", "water that flows would meet a soil of false inertia");
   if (own.stop_when_static)
     section.fail("stop_when_static",

@@ -52,8 +52,11 @@ World<D>::World(const CaseOptions& options, MPI_Comm comm)
     coupling_.emplace(grid_, options.coupling, *options.flow, *soil_);
     load_.emplace(grid_);
   }
-  if (flow_ && soil_ && options.coupling.mode == CouplingMode::unified)
+  if (flow_ && soil_ && options.coupling.mode == CouplingMode::unified) {
     unified_.emplace(grid_, *soil_);
+    if (const double bulk = options.soil->water_bulk_modulus; std::isfinite(bulk))
+      flow_->let_water_give_way(1.0 / bulk);
+  }
 }
 
 template <int D>

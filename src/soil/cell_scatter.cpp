@@ -4,6 +4,7 @@
 /// row, and the sums stay in registers until the batch is through.
 #include "soil/cell_splines.hpp"
 #include "soil/cell_transfer.hpp"
+#include "soil/grains_in_cells.hpp"
 
 namespace mudlark {
 namespace {
@@ -19,7 +20,7 @@ struct BatchSource {
   std::array<AxisSpline<Value, 4>, D> face;  ///< first axis not used: see the node splines
   std::array<AxisSpline<Value, 3>, D> centre;
   std::array<NodeSpline, lanes> face_x, centre_x;
-  Value grain_mass, volume, water_mass, drag, pore_pressure;
+  Value grain_mass, volume, held_volume, water_mass, drag, pore_pressure;
   Value traction{}, drained{};
   std::array<Value, D> traction_gradient{}, drained_gradient{};
 
@@ -103,6 +104,7 @@ class CellScatter {
     const std::ptrdiff_t first = grid_.offset(corner);
     source.grain_mass = batch.get(points_.grain_mass);
     source.volume = batch.get(points_.volume);
+    source.held_volume = held_volume(body_, source.grain_mass, source.volume);
     if (surface_.traction)
       sample<D, K>(source, surface_.traction->data() + first, stride_, source.traction,
                    source.traction_gradient);
@@ -195,7 +197,7 @@ class CellScatter {
           store<lanes>(mass * per_node[0], rows.moment[row]);
         }
         store<lanes>(mass, sum[0]);
-        store<lanes>(w * source.volume, sum[1]);
+        store<lanes>(w * source.held_volume, sum[1]);
         store<lanes>(mass * u, sum[2]);
         Value total = w * body_force + slope_z * force[D - 1];
         if constexpr (D == 3) total += slope_y * force[1];

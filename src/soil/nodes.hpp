@@ -11,7 +11,7 @@ struct NodeSums {
   double water_mass = 0.0;      ///< pore water [kg]
   double drag = 0.0;            ///< integral of n^2 mu / kappa [kg/s]
   double grain_mass = 0.0;      ///< [kg]
-  double volume = 0.0;          ///< bulk volume of soil [m^D]
+  double volume = 0.0;          ///< of soil; where the water is the flow's, of its grains [m^D]
   double grain_momentum = 0.0;  ///< [kg m/s]
   double mixture_force =
       0.0;  ///< internal and surface forces on grains and pore water together [N]

@@ -10,6 +10,7 @@
 #include "materials/registry.hpp"
 #include "soil/body_force.hpp"
 #include "soil/face_balance.hpp"
+#include "soil/grains_in_cells.hpp"
 #include "soil/kinematics.hpp"
 #include "soil/point_volume.hpp"
 #include "soil/pore_cells.hpp"
@@ -409,10 +410,8 @@ void SoilSolver<D>::solid_fraction(CellField<D>& fraction, CellField<D>& resista
   for (std::size_t b = 0; b < points_.size(); ++b) {
     const BodyConstants& body = constants_[b];
     add_solid_fraction(*grid_, points_[b], body.grain_density, options_.kernel, 1.0, fraction);
-    if (body.water_density == 0.0 && !body.in_grid_water) continue;
-    const double drag =
-        body.water_viscosity / (body.intrinsic_permeability * (1.0 - body.start_porosity));
-    add_solid_fraction(*grid_, points_[b], body.grain_density, options_.kernel, drag, resistance);
+    if (body.water_density > 0.0 || body.in_grid_water)
+      add_resistance(*grid_, points_[b], body, options_.kernel, resistance);
   }
   const std::array<double*, 2> both{fraction.data(), resistance.data()};
   halo_.add_to_owners(both);

@@ -1,18 +1,23 @@
 #include "soil/transfer.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "soil/cell_transfer.hpp"
+#include "soil/grains_in_cells.hpp"
 #include "soil/point_stencil.hpp"
 
 namespace mudlark {
 namespace {
 
+/// Pores do not close altogether for the water that is asked to pass them [-].
+constexpr double least_porosity_of_drag = 0.01;
+
 /// What one point gives to its nodes, apart from what depends on the component.
 template <int D>
 struct PointSource {
-  double grain_mass, water_mass, water_density, volume, drag, pore_pressure;
+  double grain_mass, water_mass, water_density, volume, held_volume, drag, pore_pressure;
   SymTensor stress;
   Sample<D> traction, drained;
 };
@@ -69,7 +74,7 @@ void scatter_component(const Grid<D>& grid, const PointSplines<D, K>& splines,
           }
         node.grain_mass += w * source.grain_mass;
         node.water_mass += w * source.water_mass;
-        node.volume += w * volume;
+        node.volume += w * source.held_volume;
         node.drag += w * source.drag;
         node.grain_momentum += w * source.grain_mass * u;
         node.water_momentum += w * source.water_mass * uw;
@@ -89,6 +94,7 @@ void scatter(const Grid<D>& grid, const SoilParticles<D>& points, const BodyCons
     PointSource<D> source;
     source.grain_mass = points.grain_mass[p];
     source.volume = points.volume[p];
+    source.held_volume = held_volume(body, points.grain_mass[p], source.volume);
     source.water_density = body.water_density;
     source.stress = get_tensor(points.stress, p);
     source.traction = sample(grid, splines, per_spacing, surface.traction);
@@ -194,14 +200,15 @@ void gather(const Grid<D>& grid, const NodeField<NodeMotion, D>& nodes, const Po
   motion.largest_speed = std::max(motion.largest_speed, std::sqrt(largest));
 }
 
-template <int D, class K>
-void add_fraction(const Grid<D>& grid, const SoilParticles<D>& points, double grain_density,
-                  double weight, CellField<D>& solid_fraction) {
+/// Adds value(point) to the cells around each point.
+template <int D, class K, class Value>
+void add_to_cells(const Grid<D>& grid, const SoilParticles<D>& points, CellField<D>& field,
+                  Value&& value) {
   const Vec<D> per_spacing = inverse(grid.spacing());
-  double* values = solid_fraction.data();
+  double* values = field.data();
   for (std::size_t p = 0; p < points.size(); ++p) {
     const PointSplines<D, K> splines(in_cells(grid, per_spacing, points.position_of(p)));
-    const double share = weight * points.grain_mass[p] / (grain_density * grid.cell_volume());
+    const double share = value(p);
     splines.template for_each_node<-1>(
         grid, per_spacing, [&](std::ptrdiff_t at, double w, const Vec<D>&, const Vec<D>&) {
           values[at] += w * share;
@@ -285,8 +292,23 @@ void grid_to_points(const Grid<D>& grid, const NodeField<NodeMotion, D>& nodes, 
 template <int D>
 void add_solid_fraction(const Grid<D>& grid, const SoilParticles<D>& points, double grain_density,
                         Kernel kernel, double weight, CellField<D>& solid_fraction) {
+  const double per_mass = weight / (grain_density * grid.cell_volume());
   with_kernel(kernel, [&]<class K>(K) {
-    add_fraction<D, K>(grid, points, grain_density, weight, solid_fraction);
+    add_to_cells<D, K>(grid, points, solid_fraction,
+                       [&](std::size_t p) { return per_mass * points.grain_mass[p]; });
+  });
+}
+
+template <int D>
+void add_resistance(const Grid<D>& grid, const SoilParticles<D>& points, const BodyConstants& body,
+                    Kernel kernel, CellField<D>& resistance) {
+  const double scale = body.water_viscosity / grid.cell_volume();
+  with_kernel(kernel, [&]<class K>(K) {
+    add_to_cells<D, K>(grid, points, resistance, [&](std::size_t p) {
+      const double porosity = 1.0 - points.grain_mass[p] / (body.grain_density * points.volume[p]);
+      return scale * points.volume[p] /
+             permeability(body, std::max(least_porosity_of_drag, porosity));
+    });
   });
 }
 
@@ -314,5 +336,9 @@ template void add_solid_fraction(const Grid<2>&, const SoilParticles<2>&, double
                                  CellField<2>&);
 template void add_solid_fraction(const Grid<3>&, const SoilParticles<3>&, double, Kernel, double,
                                  CellField<3>&);
+template void add_resistance(const Grid<2>&, const SoilParticles<2>&, const BodyConstants&, Kernel,
+                             CellField<2>&);
+template void add_resistance(const Grid<3>&, const SoilParticles<3>&, const BodyConstants&, Kernel,
+                             CellField<3>&);
 
 }  // namespace mudlark

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "soil/grains_in_cells.hpp"
 #include "soil/pore_cells.hpp"
 #include "soil/walls.hpp"
 #include "unit/soil/soil_setup.hpp"
@@ -343,11 +344,19 @@ template <int D>
 void expect_uniform_fraction() {
   const Grid<D> grid = make_grid<D>({6, 5, 7}, Wall::slip);
   SoilParticles<D> points = make_cloud(grid, grid.global(), 2, 0.0);
+  points.volume = points.start_volume;
   for (const Kernel kernel : every_kernel) {
-    CellField<D> fraction(grid, "fraction", "1");
-    add_solid_fraction(grid, points, 2650.0, kernel, 2.0, fraction);
+    CellField<D> fraction(grid, "fraction", "1"), resistance(grid, "resistance", "Pa s/m2");
+    const BodyConstants body = saturated_sand();
+    add_solid_fraction(grid, points, 2650.0, kernel, 1.0, fraction);
+    add_resistance(grid, points, body, kernel, resistance);
     fold_cells(SoilSides<D>(grid), grid.local(), fraction);
-    for_each(grid.global(), [&](const Index<D>& c) { EXPECT_NEAR(fraction[c], 1.2, 1e-13); });
+    fold_cells(SoilSides<D>(grid), grid.local(), resistance);
+    const double full = body.water_viscosity / permeability(body, 0.4);
+    for_each(grid.global(), [&](const Index<D>& c) {
+      EXPECT_NEAR(fraction[c], 0.6, 1e-13);
+      EXPECT_NEAR(resistance[c], full, 1e-12 * full);
+    });
   }
 }
 
