@@ -38,12 +38,19 @@ template <int D>
 void UnifiedCoupling<D>::map_soil_to_grid(SoilSolver<D>& soil, const PorousMedium<D>& fixed,
                                           PorousMedium<D>& medium) {
   room_.find(soil, fixed, medium);
+  map_partly_filled(soil, fixed, medium);
   if (drag_.active()) return;
   for (int a = 0; a < D; ++a)
     room_.for_each_inner_face(a, [&](const Index<D>& face) {
       const double open = medium.space.aperture[a][face];  // only there water resists
       grains_.resistance[a][face] = open > 0.0 ? room_.resistance_at(a, face) / open : 0.0;
     });
+}
+
+/// Where water in pores that are not full goes by a relative permeability, and how it is held.
+template <int D>
+void UnifiedCoupling<D>::map_partly_filled(SoilSolver<D>& soil, const PorousMedium<D>& fixed,
+                                           PorousMedium<D>& medium) {
   for_each(grid_->local(), [&](const Index<D>& cell) {
     medium.drains[cell] = std::max(fixed.drains[cell], room_.fraction()[cell] > rim ? 1.0 : 0.0);
   });

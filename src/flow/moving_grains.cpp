@@ -1,6 +1,7 @@
 #include "flow/moving_grains.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "flow/flow_checks.hpp"
 #include "numerics/loops.hpp"
@@ -31,6 +32,17 @@ double pull_of_part(const PoreFilling& filling, double saturation) {
   return saturation * saturation / filling.relative_permeability(s);
 }
 
+/// Water slower against the grains than this share of what gravity gives it in a step has no clear
+/// direction.
+constexpr double slow_share = 0.1;
+
+/// Saturation of the cell that water comes from [-]; where it hardly moves, of both: a switch would
+/// turn round-off into a difference.
+double filled_upstream(double below, double above, double direction) {
+  const double from_below = 0.5 * (1.0 + std::tanh(direction));
+  return std::clamp(above + from_below * (below - above), 0.0, 1.0);
+}
+
 }  // namespace
 
 template <int D>
@@ -48,6 +60,7 @@ void GrainsInWater<D>::couple(const FaceVector<D>& capacity, const CellField<D>&
                               const FaceVector<D>& reach, double dt, FaceVector<D>& velocity,
                               FaceVector<D>& mobility, MovingGrains<D>& grains) {
   const Grid<D>& grid = *grid_;
+  const double slow = std::max(slow_share * dt * norm(grid.gravity()), 1e-12);
   for (int axis = 0; axis < D; ++axis) {
     const std::ptrdiff_t s = grid.stride(axis);
     const double *w = water.data(), *room = porosity.data(), *governed = unknown.data();
@@ -61,9 +74,10 @@ void GrainsInWater<D>::couple(const FaceVector<D>& capacity, const CellField<D>&
         // Where no pressure acts, water is what the cell that it comes from holds, and k_r of the
         // permeability is left to it: S^2 theta^2 A / k_r pulls at the grains (NUMERICS C2).
         const bool wet = governed[at] + governed[at - s] > 0.0, open = theta[at] > 0.0;
-        const std::ptrdiff_t donor = v[at] > grain_v[at] ? at - s : at;
-        const bool known = wet || !open || room[donor] == 0.0;
-        const double filled = known ? 1.0 : std::clamp(w[donor] / room[donor], 0.0, 1.0);
+        const bool known = wet || !open || room[at] == 0.0 || room[at - s] == 0.0;
+        const double filled = known ? 1.0
+                                    : filled_upstream(w[at - s] / room[at - s], w[at] / room[at],
+                                                      (v[at] - grain_v[at]) / slow);
         const double pull = known ? 1.0 : pull_of_part(grains.filling, filled);
         const double resistance = grains.resistance[axis].data()[at];
         const FaceSystem face{inertia, open ? filled * theta[at] * dt / m[at] : 0.0,
