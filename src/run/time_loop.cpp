@@ -10,6 +10,9 @@
 namespace mudlark {
 namespace {
 
+/// Share of the run's length below which a stable step says that something has gone wrong.
+constexpr double hopeless_step = 1e-11;
+
 /// What all ranks must agree on after a step: has anyone been interrupted, and is rank 0's time for
 /// a checkpoint up?
 struct Agreement {
@@ -105,7 +108,11 @@ ExitCode run_to_end(World<D>& world, Results<D>& results, const RunSettings& set
         world.begin_next_stage();
         log.stage();
       }
-      const double dt = clock.choose_step(world.stable_step());
+      const double stable = world.stable_step();
+      if (stable < hopeless_step * world.options().time.end)
+        throw DivergenceError(fmt::format(
+            "the stable step fell to {:.3g} s; the run would not come to its end.", stable));
+      const double dt = clock.choose_step(stable);
       world.advance(dt);
       if (moved_too_far(world, settings)) clock.stop();
       note_added_mass(world, results, dt, noted);
