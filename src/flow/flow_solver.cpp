@@ -261,8 +261,9 @@ bool FlowSolver<D>::incompressible(double water, double porosity) const {
 }
 
 /// Water, porosity and momentum over dt with the present velocity. Cells that may change their
-/// volume (void, or gas that gives way) take the medium's porosity as it is: there the dilation
-/// term is zero, so nothing is lost or gained.
+/// volume (void, or gas that gives way) take the medium's porosity as it is, or what their water
+/// needs until a pressure can push it out: there the dilation term is zero, so nothing is lost or
+/// gained.
 template <int D>
 void FlowSolver<D>::transport(const PorousMedium<D>& medium, double dt) {
   const Grid<D>& grid = *grid_;
@@ -277,11 +278,12 @@ void FlowSolver<D>::transport(const PorousMedium<D>& medium, double dt) {
   const double* theta = porosity_.data();
   const double* given = medium.porosity.data();
   const double* volume = medium.space.volume.data();
+  const double* now = water_.data();
   double* moved = new_porosity_.data();
   for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) {
     const bool loose = !incompressible(w[at], theta[at]);
     loose_.data()[at] = loose ? 1.0 : 0.0;
-    if (loose) moved[at] = solids_.moving() ? theta[at] : volume[at] * given[at];
+    if (loose) moved[at] = solids_.moving() ? theta[at] : std::max(volume[at] * given[at], now[at]);
   });
   if (!sources_.empty())
     outflow_ -= sum_over_ranks(grid, sources_.refill(time_, dt, loose_, new_porosity_));

@@ -19,6 +19,9 @@ struct Batch {
   std::vector<double> history;  ///< point after point
 };
 
+/// Soil that has swollen to this times its first volume is single grains that do not touch.
+constexpr double apart = 2.0;
+
 bool is_rate(StrainMeasure measure) {
   return measure == StrainMeasure::objective || measure == StrainMeasure::jaumann;
 }
@@ -108,6 +111,21 @@ void prepare(SoilParticles<D>& points, const PointGroup& group, MatrixLanes g,
     batch.strain[k + i] = strain.at(i), batch.stress[k + i] = stress.at(i);
 }
 
+/// Grains that do not touch carry nothing, whatever the law made of the strains on their way. Cracks
+/// that open one way and close another swell a lone point of Mohr-Coulomb soil without end, and it
+/// would press with all that volume.
+template <int D>
+TensorLanes without_grains_apart(SoilParticles<D>& points, const PointGroup& group,
+                                 StrainMeasure measure, const TensorLanes& stress) {
+  const TensorValue swollen = group.get(points.volume) / group.get(points.start_volume);
+  const TensorValue touching = swollen > apart ? TensorValue{} : spread<tensor_lanes>(1.0);
+  if (measure == StrainMeasure::hencky || measure == StrainMeasure::logarithmic)
+    for (std::size_t i = 0; i < group.live; ++i)
+      if (touching[i] == 0.0)
+        set_tensor(points.elastic, group.first + i, {1.0, 1.0, 1.0, 0.0, 0.0, 0.0});
+  return stress.scaled(touching);
+}
+
 /// Cauchy stress from what the law gave, and the elastic state that belongs to it.
 template <int D>
 void finish(SoilParticles<D>& points, const PointGroup& group, const SoilModel& law,
@@ -143,6 +161,7 @@ void finish(SoilParticles<D>& points, const PointGroup& group, const SoilModel& 
     stress =
         stress.combined(TensorValue{}, scale, -half_rate * scale, batch.turned[k / tensor_lanes]);
   }
+  if (yields) stress = without_grains_apart(points, group, measure, stress);
   group.set(stress, points.stress);
 }
 
