@@ -26,3 +26,8 @@ function(mudlark_module name)
   target_include_directories(mudlark_${name} ${scope} ${CMAKE_SOURCE_DIR}/src)
   target_link_libraries(mudlark_${name} ${scope} ${MODULE_LINKS})
 endfunction()
+
+# Most of a file's time in the compiler goes into the headers of libraries: read once for all of them.
+set(mudlark_library_headers <Eigen/Geometry> <algorithm> <array> <cmath> <filesystem> <functional>
+    <limits> <memory> <mpi.h> <optional> <petscdmda.h> <span> <string> <variant> <vector>
+    <fmt/format.h>)

@@ -1,5 +1,4 @@
-/// The number of ranks does not change the answer: all gauges of small cases on 1, 2, 3 and 4
-/// ranks.
+/// The number of ranks does not change the answer: all gauges of small cases on one rank and more.
 #include "regression/run/runs.hpp"
 
 namespace mudlark {
@@ -7,11 +6,11 @@ namespace {
 
 class Ranks : public RunTest {
  protected:
-  void expect_the_same_on_all_ranks(const std::string& name) {
+  void expect_the_same_on_ranks(const std::string& name, const std::vector<int>& numbers = {3}) {
     const Result one = run(name, 1, "one");
     ASSERT_EQ(one.code, 0) << one.output;
     double worst = 0.0;
-    for (int ranks = 2; ranks <= 4; ++ranks) {
+    for (const int ranks : numbers) {
       const std::string into = "on " + std::to_string(ranks);
       const Result several = run(name, ranks, into);
       ASSERT_EQ(several.code, 0) << several.output;
@@ -25,34 +24,32 @@ class Ranks : public RunTest {
 };
 
 TEST_F(Ranks, GiveTheSameDamBreakOverAMoundOfSoil) {
-  expect_the_same_on_all_ranks("dam_on_bed_2d");
+  expect_the_same_on_ranks("dam_on_bed_2d", {2, 3, 4});
 }
 
-TEST_F(Ranks, GiveTheSameDamBreakOverASlopingBedIn3D) {
-  expect_the_same_on_all_ranks("dam_on_bed_3d");
-}
+TEST_F(Ranks, GiveTheSameDamBreakOverASlopingBedIn3D) { expect_the_same_on_ranks("dam_on_bed_3d"); }
 
-TEST_F(Ranks, GiveTheSameDamBreakWithOneWater) { expect_the_same_on_all_ranks("one_water_2d"); }
+TEST_F(Ranks, GiveTheSameDamBreakWithOneWater) { expect_the_same_on_ranks("one_water_2d"); }
 
 TEST_F(Ranks, GiveTheSameDamBreakOverGrainsThatYield) {
-  expect_the_same_on_all_ranks("one_water_grains_2d");
+  expect_the_same_on_ranks("one_water_grains_2d");
 }
 
 TEST_F(Ranks, GiveTheSameDryBankThatTakesInWater) {
-  expect_the_same_on_all_ranks("one_water_partly_filled_2d");
+  expect_the_same_on_ranks("one_water_partly_filled_2d");
 }
 
 TEST_F(Ranks, GiveTheSameWallPushedThroughASubmergedBed) {
-  expect_the_same_on_all_ranks("one_water_solid_2d");
+  expect_the_same_on_ranks("one_water_solid_2d");
 }
 
-TEST_F(Ranks, GiveTheSameThrownBlockOfSoilIn3D) { expect_the_same_on_all_ranks("soil_3d"); }
+TEST_F(Ranks, GiveTheSameThrownBlockOfSoilIn3D) { expect_the_same_on_ranks("soil_3d"); }
 
-TEST_F(Ranks, GiveTheSameLumpWhosePointsAreSplit) { expect_the_same_on_all_ranks("drawn"); }
+TEST_F(Ranks, GiveTheSameLumpWhosePointsAreSplit) { expect_the_same_on_ranks("drawn"); }
 
-TEST_F(Ranks, GiveTheSameStages) { expect_the_same_on_all_ranks("stages"); }
+TEST_F(Ranks, GiveTheSameStages) { expect_the_same_on_ranks("stages"); }
 
-TEST_F(Ranks, GiveTheSameFlowAgainstAPorousBlockIn3D) { expect_the_same_on_all_ranks("flow_3d"); }
+TEST_F(Ranks, GiveTheSameFlowAgainstAPorousBlockIn3D) { expect_the_same_on_ranks("flow_3d"); }
 
 }  // namespace
 }  // namespace mudlark
