@@ -34,6 +34,9 @@ class UnifiedCoupling {
                    double dt);
   void follow_water(const FlowSolver<D>& flow, SoilSolver<D>& soil, double dt);
 
+  /// What follows from a state just loaded. Collective.
+  void restore() { halo_.exchange(pressure_); }
+
   MovingGrains<D>& grains() { return grains_; }
 
   template <class Archive>

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "flow/fixed_ground.hpp"
+#include "flow/partly_filled.hpp"
 #include "numerics/loops.hpp"
 
 namespace mudlark {
@@ -25,17 +26,18 @@ void DrainedGround<D>::slow(const CellField<D>& water, const CellField<D>& poros
                             FaceVector<D>& velocity, FaceVector<D>& mobility) const {
   if (!slows_) return;
   const double *w = water.data(), *room = porosity.data(), *governed = unknown.data();
+  const double slow = undirected_speed(norm(grid_->gravity()), dt);
+  const auto share = [&](std::ptrdiff_t at) { return room[at] > 0.0 ? w[at] / room[at] : 0.0; };
   for (int axis = 0; axis < D; ++axis) {
     const std::ptrdiff_t s = grid_->stride(axis);
     const double *number = number_[axis].data(), *added = added_mass[axis].data();
     double *v = velocity[axis].data(), *m = mobility[axis].data();
     for_each_offset(*grid_, bounding_faces(*grid_, axis), [&](std::ptrdiff_t at) {
       if (number[at] == 0.0 || governed[at] + governed[at - s] > 0.0) return;
-      const std::ptrdiff_t donor = v[at] > 0.0 ? at - s : at;
       const PoreFilling& ground = grounds_[static_cast<std::size_t>(number[at]) - 1];
-      const double filled = std::clamp(room[donor] > 0.0 ? w[donor] / room[donor] : 0.0, 1e-3, 1.0);
+      const double filled = std::max(1e-3, filled_upstream(share(at - s), share(at), v[at] / slow));
       const double growth = filled / ground.relative_permeability(filled);
-      const double drag = 1.0 / m[at] - (density_ + added[at]) / dt;
+      const double drag = std::max(0.0, 1.0 / m[at] - (density_ + added[at]) / dt);
       const double slower = 1.0 / (1.0 + m[at] * drag * (growth - 1.0));
       m[at] *= slower;
       v[at] *= slower;

@@ -241,7 +241,9 @@ void FlowSolver<D>::find_target(const PorousMedium<D>& medium, double dt, double
   double* target = target_.data();
   for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) {
     const double given = volume[at] * porosity[at] + (stored ? stored[at] : 0.0);
-    const double rate = porosity[at] < 1.0 ? std::min(drift_feedback / dt, most) : 1.0 / dt;
+    // Cells that close faster than that keep some room: without any they would dictate the step.
+    const double slowest = theta[at] < 0.5 * given ? HUGE_VAL : most;
+    const double rate = porosity[at] < 1.0 ? std::min(drift_feedback / dt, slowest) : 1.0 / dt;
     target[at] = dt > 0.0 ? rate * (theta[at] - given) : 0.0;
   });
   for (int a = 0; a < D; ++a) {

@@ -1,9 +1,9 @@
 #include "flow/moving_grains.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "flow/flow_checks.hpp"
+#include "flow/partly_filled.hpp"
 #include "numerics/loops.hpp"
 
 namespace mudlark {
@@ -32,17 +32,6 @@ double pull_of_part(const PoreFilling& filling, double saturation) {
   return saturation * saturation / filling.relative_permeability(s);
 }
 
-/// Water slower against the grains than this share of what gravity gives it in a step has no clear
-/// direction.
-constexpr double slow_share = 0.1;
-
-/// Saturation of the cell that water comes from [-]; where it hardly moves, of both: a switch would
-/// turn round-off into a difference.
-double filled_upstream(double below, double above, double direction) {
-  const double from_below = 0.5 * (1.0 + std::tanh(direction));
-  return std::clamp(above + from_below * (below - above), 0.0, 1.0);
-}
-
 }  // namespace
 
 template <int D>
@@ -60,7 +49,7 @@ void GrainsInWater<D>::couple(const FaceVector<D>& capacity, const CellField<D>&
                               const FaceVector<D>& reach, double dt, FaceVector<D>& velocity,
                               FaceVector<D>& mobility, MovingGrains<D>& grains) {
   const Grid<D>& grid = *grid_;
-  const double slow = std::max(slow_share * dt * norm(grid.gravity()), 1e-12);
+  const double slow = undirected_speed(norm(grid.gravity()), dt);
   for (int axis = 0; axis < D; ++axis) {
     const std::ptrdiff_t s = grid.stride(axis);
     const double *w = water.data(), *room = porosity.data(), *governed = unknown.data();

@@ -57,6 +57,9 @@ std::vector<std::string> excluded(const CaseOptions& options) {
   no(soil.stop_when_static.has_value(), "soil_solver.stop_when_static");
   no(soil.water_damping.value_or(soil.damping) != soil.damping,
      "a soil_solver.water_damping of its own, as the water is the flow's,");
+  no(std::any_of(soil.stages.begin(), soil.stages.end(),
+                 [](const SoilStage& stage) { return stage.water_damping.has_value(); }),
+     "a water_damping in a [[stage]], as the water is the flow's,");
   no(soil.load_form != LoadForm::virtual_stress, "soil_solver.load_form = \"facets\"");
   no(soil.kernel == Kernel::linear, "soil_solver.kernel = \"linear\"");
   no(soil.body_acceleration.has_value(), "soil_solver.body_acceleration");

@@ -137,6 +137,10 @@ void read_porous(Section& root, CaseOptions& options, std::vector<NamedShape>& g
                         .cure = "Rubble has about 0.4."});
     read_drag(section, ground, *options.flow);
     ground.filling = read_pore_filling(section, ground.filling);
+    if (section.has("relative_permeability") && options.flow->gas)
+      section.fail("relative_permeability",
+                   "with gas beside the water both fill the pores, and both resist alike",
+                   "Leave out air = \"gas\" under [water], or this key.");
     if (ground.filling.suction > 0.0 && options.flow->gas)
       section.fail("suction", "water that gas surrounds has no surface of its own to hold it",
                    "Leave out air = \"gas\" under [water], or the suction.");

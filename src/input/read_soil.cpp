@@ -167,10 +167,14 @@ void read_pore_water(Section& section, SoilBody& body, const WaterProperties& wa
     section.forbid("formulation", unified ? "pore_water = \"unified\" has one: that of the flow"
                                           : "pore_water = \"none\" has no pore water to formulate");
   read_drag(section, body, water);
-  body.permeability_law = section.choice<PermeabilityLaw>(
-      "permeability_law",
-      {{"constant", PermeabilityLaw::constant}, {"kozeny-carman", PermeabilityLaw::kozeny_carman}},
-      body.permeability_law);
+  if (body.grain_diameter > 0.0)
+    section.forbid("permeability_law", "grain_diameter says how the grains resist");
+  else
+    body.permeability_law =
+        section.choice<PermeabilityLaw>("permeability_law",
+                                        {{"constant", PermeabilityLaw::constant},
+                                         {"kozeny-carman", PermeabilityLaw::kozeny_carman}},
+                                        body.permeability_law);
   if (unified)
     body.filling = read_pore_filling(section, body.filling);
   else

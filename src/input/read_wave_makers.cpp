@@ -157,6 +157,13 @@ void check_surroundings(Section& wave, const CaseOptions& options, const WaveMak
     wave.fail(key, "it makes waves under air of no mass; with air = \"gas\" it is not there yet",
               "Make the wave in a zone.");
   if (options.soil) wave.fail(key, "it does not go with soil yet", "Make the wave in a zone.");
+  if (maker.source) {
+    const double level = maker.zone.still_level;
+    if (maker.source->upper[2] >= level)
+      wave.fail("source",
+                fmt::format("its box must stay under water, whose level is {:g} m", level),
+                "Lower its upper corner, a wave height below the level at least.");
+  }
   if (!maker.paddle) return;
   if (!flow.porous.empty())
     wave.fail(key, "a body that moves in a case with [[porous]] ground is not there yet",

@@ -10,8 +10,9 @@
 namespace mudlark {
 namespace {
 
-/// Share of the run's length below which a stable step says that something has gone wrong.
-constexpr double hopeless_step = 1e-11;
+/// Share of the longest step so far below which one of flowing water says that something has gone
+/// wrong.
+constexpr double hopeless_share = 1e-8;
 
 /// What all ranks must agree on after a step: has anyone been interrupted, and is rank 0's time for
 /// a checkpoint up?
@@ -109,7 +110,7 @@ ExitCode run_to_end(World<D>& world, Results<D>& results, const RunSettings& set
         log.stage();
       }
       const double stable = world.stable_step();
-      if (stable < hopeless_step * world.options().time.end)
+      if (world.flow() && !(stable >= hopeless_share * world.effort().largest_step))
         throw DivergenceError(fmt::format(
             "the stable step fell to {:.3g} s; the run would not come to its end.", stable));
       const double dt = clock.choose_step(stable);

@@ -91,6 +91,7 @@ void World<D>::restore() {
   }
   if (flow_) flow_->place_solids(medium_);
   if (unified_) {
+    unified_->restore();
     unified_->place_solids(medium_.space);
     unified_->map_soil_to_grid(*soil_, fixed_, medium_);
   }

@@ -77,7 +77,10 @@ Overburden overburden(const Grid<D>& grid, const SoilOptions& options, std::size
   double held = 0.0;  // suction of soil that is wet, of the sample below
   for (double share = 0.5; x[D - 1] < grid.upper()[D - 1]; share = 1.0, x[D - 1] += step) {
     const int number = body_at(options, stage, to_point3(x));
-    if (number < 0) continue;
+    if (number < 0) {
+      held = 0.0;  // a surface in the open is no meniscus
+      continue;
+    }
     const SoilBody& body = options.bodies[static_cast<std::size_t>(number)];
     const bool wet = is_wet(options, body, to_point3(x));
     sum.effective += share * step * submerged_unit_weight(options, body, wet, gravity);

@@ -111,9 +111,9 @@ void prepare(SoilParticles<D>& points, const PointGroup& group, MatrixLanes g,
     batch.strain[k + i] = strain.at(i), batch.stress[k + i] = stress.at(i);
 }
 
-/// Grains that do not touch carry nothing, whatever the law made of the strains on their way. Cracks
-/// that open one way and close another swell a lone point of Mohr-Coulomb soil without end, and it
-/// would press with all that volume.
+/// Grains that do not touch carry nothing, whatever the law made of the strains on their way.
+/// Cracks that open one way and close another swell a lone point of Mohr-Coulomb soil without end,
+/// and it would press with all that volume.
 template <int D>
 TensorLanes without_grains_apart(SoilParticles<D>& points, const PointGroup& group,
                                  StrainMeasure measure, const TensorLanes& stress) {

@@ -142,5 +142,22 @@ TEST(PlasticRotation, AProblemInThePlaneIsTheSameInTwoAndThreeDimensions) {
     }
 }
 
+/// Grains that fill less than half of the room they started in do not touch, whatever the steps
+/// that led there; when they come together they press again, and from nothing.
+TEST(GrainsApart, CarryNothingUntilTheyAreTogetherAgain) {
+  const auto law = make_soil_model(MohrCoulombOptions{2e7, 0.3, 3e3, 0.5, 0.1});
+  const Matrix squeeze = -1e-4 * Matrix::Identity();
+  for (const StrainMeasure measure : {StrainMeasure::jaumann, StrainMeasure::hencky}) {
+    SoilParticles<3> points = one_point(*law, measure);
+    points.volume[0] = 2.1;
+    take_step(points, squeeze, *law, measure);
+    EXPECT_EQ(stress_of(points).norm(), 0.0);
+    points.volume[0] = 1.9;
+    take_step(points, squeeze, *law, measure);
+    EXPECT_LT(stress_of(points).trace(), -1e3);
+    EXPECT_GT(stress_of(points).trace(), -20e3);
+  }
+}
+
 }  // namespace
 }  // namespace mudlark

@@ -6,38 +6,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "run/world.hpp"
+#include "verification/run/one_water.hpp"
 
 namespace mudlark {
 namespace {
-
-constexpr double gravity = 9.81, density = 1000.0;
-
-CaseOptions soil_in_water(const Shape& shape, double level, double conductivity, double modulus) {
-  CaseOptions c;
-  c.domain.gravity = {0.0, -gravity, 0.0};
-  c.domain.walls[1][1] = Wall::open;
-  c.time.end = 1.0;
-  FlowOptions flow;
-  flow.density = density;
-  flow.bodies.push_back({Shape{BoxShape{{-9, -9, -9}, {9, 9, level}}}, {}});
-  c.flow = flow;
-  SoilBody body;
-  body.name = "soil";
-  body.shape = shape;
-  body.porosity = 0.4;
-  body.pore_water = PoreWater::unified;
-  body.intrinsic_permeability = conductivity * flow.viscosity / (density * gravity);
-  body.points_per_cell = 9;
-  body.law = LinearElasticOptions{modulus, 0.3};
-  body.strain = StrainMeasure::hencky;
-  SoilOptions soil;
-  soil.bodies.push_back(body);
-  soil.flooded.push_back(flow.bodies.front().shape);
-  c.soil = soil;
-  c.coupling.mode = CouplingMode::unified;
-  return c;
-}
 
 /// The bed of added_mass_test.cpp: loose coupling diverges below 5 ms, here every step will do.
 TEST(OneWaterAddedMass, ABedRocksUnderDeepWaterAtAnyStep) {

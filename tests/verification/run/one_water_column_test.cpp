@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "run/gauges.hpp"
-#include "run/world.hpp"
+#include "verification/run/one_water.hpp"
 
 namespace mudlark {
 namespace {
@@ -50,12 +50,6 @@ double read(World<2>& world, GaugeQuantity quantity, double height) {
   gauge.quantity = quantity;
   gauge.at = {0.025, 0.0, height};
   return read_gauge(world, gauge)[0];
-}
-
-void run_until(World<2>& world, double time) {
-  const double left = time - world.clock().time();
-  const int steps = static_cast<int>(std::ceil(left / world.stable_step()));
-  for (int step = 0; step < steps; ++step) world.advance(left / steps);
 }
 
 /// Table 1 of the paper with k0 = 1e-3 m/s: 400 kPa, constrained modulus 1346 kPa, Kirchhoff stress

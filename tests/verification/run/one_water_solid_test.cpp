@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "run/gauges.hpp"
-#include "run/world.hpp"
+#include "verification/run/one_water.hpp"
 
 namespace mudlark {
 namespace {
@@ -71,20 +71,6 @@ std::vector<double> read(World<D>& world, GaugeQuantity quantity, std::array<dou
   gauge.at = at;
   gauge.of = "body";
   return read_gauge(world, gauge);
-}
-
-template <int D>
-void run_until(World<D>& world, double time) {
-  const double left = time - world.clock().time();
-  const int steps = static_cast<int>(std::ceil(left / world.stable_step()));
-  for (int step = 0; step < steps; ++step) world.advance(left / steps);
-}
-
-template <int D>
-void expect_conservation(World<D>& world) {
-  const auto errors = conservation_errors(world);
-  EXPECT_LT(errors[0].second, 1e-12) << errors[0].first;
-  EXPECT_EQ(errors[1].second, 0.0) << errors[1].first;
 }
 
 /// A box stands in the bed, its top in the water above: what it carries is the water's lift and the

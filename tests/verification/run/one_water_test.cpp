@@ -1,12 +1,13 @@
 // ranks: 1
 // Free and pore water as one (NUMERICS C2): rest, consolidation, undrained loading, conservation.
+#include "verification/run/one_water.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
 #include "run/gauges.hpp"
-#include "run/world.hpp"
 
 namespace mudlark {
 namespace {
@@ -55,22 +56,6 @@ double read(World<D>& world, GaugeQuantity quantity, double height) {
   const double middle = 1.5 * world.grid().spacing()[0];
   gauge.at = {middle, D == 3 ? middle : 0.0, height};
   return read_gauge(world, gauge)[0];
-}
-
-/// In equal steps, as the clock of a run takes them: pressure is what a step needs to keep the
-/// volume, so a last step of next to nothing would find a pressure of next to anything.
-template <int D>
-void run_until(World<D>& world, double time) {
-  const double left = time - world.clock().time();
-  const int steps = static_cast<int>(std::ceil(left / world.stable_step()));
-  for (int step = 0; step < steps; ++step) world.advance(left / steps);
-}
-
-template <int D>
-void expect_conservation(World<D>& world) {
-  const auto errors = conservation_errors(world);
-  EXPECT_LT(errors[0].second, 1e-12) << errors[0].first;
-  EXPECT_EQ(errors[1].second, 0.0) << errors[1].first;
 }
 
 template <int D>
