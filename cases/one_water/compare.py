@@ -7,7 +7,8 @@
 - terzaghi.toml with k = 1e-2, 1e-3 and 1e-4 m/s, the step held at 0.14 ms: isochrones of the excess pore pressure at
   T = c_v t/H^2 = 0.05 to 1; tolerance 1 % of the load (RMS over the points). With 1e-6 and 1e-9 m/s water carries the
   load; tolerance 1 %.
-- rest.toml: settlement below 1e-3 of that under the bed's own weight, water below 1e-6 m/s.
+- thrown.toml: momentum along the box over 10 000 steps, kept to 1e-9.
+- rest.toml: ten minutes; settlement below 1e-3 of that under the bed's own weight, water below 1e-6 m/s.
 - slide.toml, collapse.toml: dry sand into a pond, sand under water. Water and grains are kept to 1e-12. There is no
   measurement here to compare with; the picture shows what happens.
 
@@ -69,7 +70,7 @@ def run_all(program, results):
     for k in TIGHT:
         run(program, "terzaghi", results / f"terzaghi_{k}", f'soil.0.hydraulic_conductivity="{k} m/s"',
             "time.end=0.05")
-    for case in ("rest", "slide", "collapse"):
+    for case in ("rest", "thrown", "slide", "collapse"):
         run(program, case, results / case)
 
 
@@ -122,6 +123,12 @@ def check_rest(results, findings):
     check(findings, "rest: fastest water at the end", bed.gauge("speed")["largest speed"][-1], 1e-6, "m/s")
 
 
+def check_momentum(results, findings):
+    momentum = Results(results / "thrown").gauge("momentum")["momentum x"]
+    check(findings, f"thrown: drift of momentum in {summary(results / 'thrown')['steps']} steps",
+          np.abs(momentum / momentum[0] - 1).max(), 1e-9, "-")
+
+
 def draw_motion(results, case, axes):
     run_ = Results(results / case)
     for axis, time in zip(axes, (0.25, 1.5)):
@@ -149,6 +156,7 @@ def main():
                                       layout="constrained")
     check_consolidation(arguments.results, findings, axes["T"])
     check_rest(arguments.results, findings)
+    check_momentum(arguments.results, findings)
     for case, pair in (("slide", "ab"), ("collapse", "cd")):
         errors = summary(arguments.results / case)["conservation errors"]
         check(findings, f"{case}: water lost or gained", errors["water"], 1e-12, "-")

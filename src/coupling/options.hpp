@@ -10,12 +10,16 @@ enum class CouplingMode { none, surface, unified };
 /// relative flux.
 enum class Mudline { consistent, load_only, membrane };
 enum class PressureInTime { linear, constant };
+/// Whose share of a face the grains answer to pressure with: that of the points around it, or what
+/// the water of its cells leaves (docs/decisions/0085).
+enum class GrainShare { points, cells };
 
 struct CouplingOptions {
   CouplingMode mode = CouplingMode::none;
   Mudline mudline = Mudline::consistent;
   PressureInTime pressure_in_time = PressureInTime::linear;
   double ramp = 0.0;  ///< [s] over which the water's load is brought onto the soil (half cosine)
+  GrainShare grain_share = GrainShare::points;
   double added_mass_factor = 1.0;  ///< scales the relaxation against added mass; 0: loose coupling
 };
 

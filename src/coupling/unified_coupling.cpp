@@ -9,14 +9,15 @@ namespace mudlark {
 namespace {
 
 /// Faces with fewer grains than this share of a cell carry none: their velocity is round-off.
-constexpr double least_share = 1e-9;
+constexpr double least_share = 1e-12;
 /// Cells with more grains than this are soil for water that falls in them, not open space.
 constexpr double rim = 0.2;
 
 }  // namespace
 
 template <int D>
-UnifiedCoupling<D>::UnifiedCoupling(const Grid<D>& grid, const SoilSolver<D>& soil)
+UnifiedCoupling<D>::UnifiedCoupling(const Grid<D>& grid, const SoilSolver<D>& soil,
+                                    GrainShare share)
     : grid_(&grid),
       halo_(grid),
       room_(grid),
@@ -30,6 +31,7 @@ UnifiedCoupling<D>::UnifiedCoupling(const Grid<D>& grid, const SoilSolver<D>& so
   if (!soil.options().solids.empty()) extension_.emplace(grid);
   const auto& bodies = soil.options().bodies;
   grains_.filling = bodies.front().filling;
+  grains_.fill_faces = share == GrainShare::cells;
   grains_.hold_water = std::any_of(bodies.begin(), bodies.end(),
                                    [](const SoilBody& body) { return body.filling.suction > 0.0; });
 }
@@ -181,6 +183,18 @@ void UnifiedCoupling<D>::note_pore_pressure(const FlowSolver<D>& flow, SoilSolve
       });
     }
   soil.set_pore_pressure(pressure_);
+}
+
+template <int D>
+Vec<D> UnifiedCoupling<D>::grain_momentum() const {
+  Vec<D> sum{};
+  for (int a = 0; a < D; ++a) {
+    for_each(grid_->owned_faces(a), [&](const Index<D>& face) {
+      sum[a] += grains_.inertia[a][face] * grains_.velocity[a][face];
+    });
+    sum[a] = sum_over_ranks(*grid_, sum[a]) * grid_->cell_volume();
+  }
+  return sum;
 }
 
 /// As after a step in which nothing changed.

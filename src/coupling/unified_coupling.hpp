@@ -10,6 +10,7 @@
 ///      that makes the flux of the two together free of divergence (flow/moving_grains.hpp);
 ///   5. the grains' velocities wait for the next step (`follow_water`).
 #include "coupling/grain_drag.hpp"
+#include "coupling/options.hpp"
 #include "coupling/pressure_extension.hpp"
 #include "coupling/soil_in_water.hpp"
 #include "flow/flow_solver.hpp"
@@ -21,7 +22,7 @@ namespace mudlark {
 template <int D>
 class UnifiedCoupling {
  public:
-  UnifiedCoupling(const Grid<D>& grid, const SoilSolver<D>& soil);
+  UnifiedCoupling(const Grid<D>& grid, const SoilSolver<D>& soil, GrainShare share);
 
   /// Velocities of the grains at the start, after flow and soil have theirs. Collective.
   void initialise(const FlowSolver<D>& flow, const Space<D>& space, SoilSolver<D>& soil);
@@ -38,6 +39,8 @@ class UnifiedCoupling {
   void restore() { halo_.exchange(pressure_); }
 
   MovingGrains<D>& grains() { return grains_; }
+  /// Of the grains, at the end of the last step [kg m/s]. Collective.
+  Vec<D> grain_momentum() const;
 
   template <class Archive>
   void archive(Archive& a) {

@@ -113,6 +113,21 @@ double kinetic_energy(const Grid<D>& grid, const CellField<D>& water, const Face
 }
 
 template <int D>
+Vec<D> momentum(const Grid<D>& grid, const CellField<D>& water, const FaceVector<D>& velocity,
+                double density) {
+  Vec<D> sum{};
+  const double* w = water.data();
+  for (int axis = 0; axis < D; ++axis) {
+    const double* v = velocity[axis].data();
+    const std::ptrdiff_t s = grid.stride(axis);
+    for_each_offset(grid, grid.owned(),
+                    [&](std::ptrdiff_t at) { sum[axis] += 0.5 * w[at] * (v[at] + v[at + s]); });
+    sum[axis] = density * grid.cell_volume() * sum_over_ranks(grid, sum[axis]);
+  }
+  return sum;
+}
+
+template <int D>
 double fastest_water(const Grid<D>& grid, const CellField<D>& water, const FaceVector<D>& velocity,
                      Vec<D>& position) {
   double fastest = 0.0;
@@ -209,6 +224,8 @@ template Vec<2> place_of_largest(const Grid<2>&, const CellField<2>&);
 template Vec<3> place_of_largest(const Grid<3>&, const CellField<3>&);
 template std::string not_finite(const Grid<2>&, const IndexBox<2>&, const double*, const char*);
 template std::string not_finite(const Grid<3>&, const IndexBox<3>&, const double*, const char*);
+template Vec<2> momentum(const Grid<2>&, const CellField<2>&, const FaceVector<2>&, double);
+template Vec<3> momentum(const Grid<3>&, const CellField<3>&, const FaceVector<3>&, double);
 template double kinetic_energy(const Grid<2>&, const CellField<2>&, const FaceVector<2>&, double);
 template double kinetic_energy(const Grid<3>&, const CellField<3>&, const FaceVector<3>&, double);
 template double fastest_water(const Grid<2>&, const CellField<2>&, const FaceVector<2>&, Vec<2>&);

@@ -31,6 +31,10 @@ std::string not_finite(const Grid<D>& grid, const IndexBox<D>& box, const double
 template <int D>
 double kinetic_energy(const Grid<D>& grid, const CellField<D>& water, const FaceVector<D>& velocity,
                       double density);
+/// rho sum over faces of M_f v [kg m/s], per metre in 2D.
+template <int D>
+Vec<D> momentum(const Grid<D>& grid, const CellField<D>& water, const FaceVector<D>& velocity,
+                double density);
 /// Largest face velocity beside a cell with water (more than a millionth of it), and its cell's
 /// centre.
 template <int D>

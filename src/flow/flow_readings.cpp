@@ -18,6 +18,10 @@ double FlowSolver<D>::kinetic_energy() const {
   return mudlark::kinetic_energy(*grid_, water_, velocity_, options_.density);
 }
 template <int D>
+Vec<D> FlowSolver<D>::momentum() const {
+  return mudlark::momentum(*grid_, water_, velocity_, options_.density);
+}
+template <int D>
 FastestPlace<D> FlowSolver<D>::max_speed() const {
   Vec<D> position;
   const double speed = fastest_water(*grid_, water_, velocity_, position);
@@ -42,6 +46,8 @@ template WaterLedger FlowSolver<2>::ledger() const;
 template WaterLedger FlowSolver<3>::ledger() const;
 template double FlowSolver<2>::kinetic_energy() const;
 template double FlowSolver<3>::kinetic_energy() const;
+template Vec<2> FlowSolver<2>::momentum() const;
+template Vec<3> FlowSolver<3>::momentum() const;
 template FastestPlace<2> FlowSolver<2>::max_speed() const;
 template FastestPlace<3> FlowSolver<3>::max_speed() const;
 template double FlowSolver<2>::surface_height(const Vec<2>&) const;

@@ -90,6 +90,7 @@ class FlowSolver {
 
   WaterLedger ledger() const;
   double kinetic_energy() const;      ///< [J], per metre in 2D
+  Vec<D> momentum() const;            ///< [kg m/s], per metre in 2D; collective
   FastestPlace<D> max_speed() const;  ///< among the faces that touch water
   /// Height of the topmost surface in the column of cells through a position (its vertical entry is
   /// ignored); the domain's bottom where there is no water. Collective.

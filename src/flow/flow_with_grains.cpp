@@ -34,7 +34,7 @@ void FlowSolver<D>::project_with_grains(const PorousMedium<D>& medium, const Cel
   push_given(medium);
   sides_.push(both.grain_mobility(), projection_.unknown(), grains.velocity);
   projection_.pull(both.grain_mobility(), medium.suction, grains.velocity);
-  both.find_flux(capacity_, velocity_, grains);
+  both.find_flux(velocity_, grains);
   const CellField<D>& gives_way =
       storage_ ? storage_->with_water(give_way, water_, pressure_, dt) : give_way;
   last_solve_ = projection_.project(both.whole(), both.flux_mobility(), target_, gives_way,

@@ -40,6 +40,7 @@ GrainsInWater<D>::GrainsInWater(const Grid<D>& grid)
       flux_(grid, "flux of the mixture", "m/s"),
       flux_mobility_(grid, "mobility of the mixture", "m2 s/kg"),
       grain_mobility_(grid, "mobility of the grains", "m2 s/kg"),
+      water_share_(grid, "water share", "1"),
       menisci_(grid, "force of menisci", "N/m3"),
       whole_(grid, "whole", "1", 1.0) {}
 
@@ -50,19 +51,21 @@ void GrainsInWater<D>::couple(const FaceVector<D>& capacity, const CellField<D>&
                               FaceVector<D>& mobility, MovingGrains<D>& grains) {
   const Grid<D>& grid = *grid_;
   const double slow = undirected_speed(norm(grid.gravity()), dt);
+  find_shares(capacity, mobility, grains);
   for (int axis = 0; axis < D; ++axis) {
     const std::ptrdiff_t s = grid.stride(axis);
     const double *w = water.data(), *room = porosity.data(), *governed = unknown.data();
-    const double* theta = capacity[axis].data();
+    const double *theta = capacity[axis].data(), *rest = water_share_[axis].data();
     double *v = velocity[axis].data(), *m = mobility[axis].data();
     double* grain_v = grains.velocity[axis].data();
     double *flux_m = flux_mobility_[axis].data(), *grain_m = grain_mobility_[axis].data();
     for_each_offset(grid, bounding_faces(grid, axis), [&](std::ptrdiff_t at) {
       const double inertia = grains.inertia[axis].data()[at], share = grains.share[axis].data()[at];
+      const bool open = theta[at] > 0.0;
       if (inertia > 0.0) {
         // Where no pressure acts, water is what the cell that it comes from holds, and k_r of the
         // permeability is left to it: S^2 theta^2 A / k_r pulls at the grains (NUMERICS C2).
-        const bool wet = governed[at] + governed[at - s] > 0.0, open = theta[at] > 0.0;
+        const bool wet = governed[at] + governed[at - s] > 0.0;
         const bool known = wet || !open || room[at] == 0.0 || room[at - s] == 0.0;
         const double filled = known ? 1.0
                                     : filled_upstream(w[at - s] / room[at - s], w[at] / room[at],
@@ -76,14 +79,14 @@ void GrainsInWater<D>::couple(const FaceVector<D>& capacity, const CellField<D>&
         // At the surface only the grains below it feel the pressure, which falls over `reach`.
         const bool surface = wet && governed[at] * governed[at - s] == 0.0;
         const double below = surface ? std::min(reach[axis].data()[at], 1.0) : 1.0;
-        const Pair answer = face.solve(dt * share * below, dt * theta[at]);
+        const Pair answer = face.solve(dt * share * below, dt * rest[at]);
         grain_v[at] = now.grains;
         grain_m[at] = answer.grains;
         if (open) v[at] = now.water, m[at] = answer.water;
       } else {
         grain_v[at] = grain_m[at] = 0.0;
       }
-      flux_m[at] = theta[at] * m[at] + share * grain_m[at];
+      flux_m[at] = rest[at] * m[at] + share * grain_m[at];
     });
     for (int side = 0; side < 2; ++side) {
       if (!grid.touches(axis, side) || grid.wall(axis, side) == Wall::open) continue;
@@ -93,15 +96,36 @@ void GrainsInWater<D>::couple(const FaceVector<D>& capacity, const CellField<D>&
   }
 }
 
+/// With `fill_faces` the two answer to all of the pressure on a face: grains to what the water of
+/// its cells leaves, but to no more than twice what the points have there, or a few grains would
+/// have the weight of many; water to the rest.
 template <int D>
-void GrainsInWater<D>::find_flux(const FaceVector<D>& capacity, const FaceVector<D>& velocity,
-                                 const MovingGrains<D>& grains) {
+void GrainsInWater<D>::find_shares(const FaceVector<D>& capacity, FaceVector<D>& mobility,
+                                   MovingGrains<D>& grains) {
+  constexpr double most = 2.0;
   for (int axis = 0; axis < D; ++axis) {
-    const double *theta = capacity[axis].data(), *v = velocity[axis].data();
+    water_share_[axis].copy_values_from(capacity[axis]);
+    if (!grains.fill_faces) continue;
+    const double *theta = capacity[axis].data(), *inertia = grains.inertia[axis].data();
+    double *share = grains.share[axis].data(), *rest = water_share_[axis].data();
+    double* m = mobility[axis].data();
+    for_each_offset(*grid_, bounding_faces(*grid_, axis), [&](std::ptrdiff_t at) {
+      if (theta[at] == 0.0) return;
+      share[at] = std::clamp(1.0 - theta[at], 0.0, most * share[at]);
+      rest[at] = 1.0 - share[at];
+      if (inertia[at] == 0.0) m[at] *= rest[at] / theta[at];
+    });
+  }
+}
+
+template <int D>
+void GrainsInWater<D>::find_flux(const FaceVector<D>& velocity, const MovingGrains<D>& grains) {
+  for (int axis = 0; axis < D; ++axis) {
+    const double *rest = water_share_[axis].data(), *v = velocity[axis].data();
     const double *share = grains.share[axis].data(), *grain_v = grains.velocity[axis].data();
     double* flux = flux_[axis].data();
     for_each_offset(*grid_, bounding_faces(*grid_, axis), [&](std::ptrdiff_t at) {
-      flux[at] = theta[at] * v[at] + share[at] * grain_v[at];
+      flux[at] = rest[at] * v[at] + share[at] * grain_v[at];
     });
   }
 }

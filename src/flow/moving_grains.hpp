@@ -23,6 +23,7 @@ struct MovingGrains {
   FaceVector<D> velocity;    ///< v_s [m/s]: before the step, then after it
   PoreFilling filling;       ///< how the pores let water pass where they are not full
   bool hold_water = false;   ///< is there suction between them?
+  bool fill_faces = false;   ///< phi_f = 1 - theta_f: pressure then moves no momentum but to walls
 };
 
 /// Momentum of water and grains on the faces of a step, drag implicit, and how both answer to a
@@ -44,8 +45,7 @@ class GrainsInWater {
               double dt, FaceVector<D>& velocity, FaceVector<D>& mobility, MovingGrains<D>& grains);
 
   /// theta v_f + phi v_s from both velocities, which walls may have been given since.
-  void find_flux(const FaceVector<D>& capacity, const FaceVector<D>& velocity,
-                 const MovingGrains<D>& grains);
+  void find_flux(const FaceVector<D>& velocity, const MovingGrains<D>& grains);
   /// That flux [m/s], and what a unit pressure gradient takes from it and from v_s.
   FaceVector<D>& flux() { return flux_; }
   const FaceVector<D>& flux_mobility() const { return flux_mobility_; }
@@ -54,8 +54,12 @@ class GrainsInWater {
   const FaceVector<D>& whole() const { return whole_; }  ///< 1 everywhere: the flux is whole
 
  private:
+  void find_shares(const FaceVector<D>& capacity, FaceVector<D>& mobility, MovingGrains<D>& grains);
+
   const Grid<D>* grid_;
-  FaceVector<D> flux_, flux_mobility_, grain_mobility_, menisci_, whole_;
+  FaceVector<D> flux_, flux_mobility_, grain_mobility_;
+  FaceVector<D> water_share_;  ///< that the water answers to pressure with: theta_f as a rule [-]
+  FaceVector<D> menisci_, whole_;
 };
 
 extern template class GrainsInWater<2>;

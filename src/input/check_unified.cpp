@@ -53,6 +53,11 @@ std::vector<std::string> excluded(const CaseOptions& options) {
                                   [static_cast<std::size_t>(part.side)] == Wall::open;
      }),
      "a [[boundary]] on an \"open\" wall");
+  if (options.coupling.grain_share == GrainShare::cells) {
+    no(!soil.solids.empty(), "coupling.grain_share = \"cells\" and a [[solid]]");
+    no(options.flow && !options.flow->porous.empty(),
+       "coupling.grain_share = \"cells\" and [[porous]] ground");
+  }
   no(soil.start_in_equilibrium.has_value(), "soil_solver.start_in_equilibrium");
   no(soil.stop_when_static.has_value(), "soil_solver.stop_when_static");
   no(soil.water_damping.value_or(soil.damping) != soil.damping,

@@ -17,13 +17,14 @@ struct Kind {
   bool has_place;
 };
 
-constexpr std::array<Kind, 22> kinds{{
+constexpr std::array<Kind, 23> kinds{{
     {GaugeQuantity::water_level, "water_level", Of::water, true},
     {GaugeQuantity::pressure, "pressure", Of::water, true},
     {GaugeQuantity::velocity, "velocity", Of::water, true},
     {GaugeQuantity::front, "front", Of::water, false},
     {GaugeQuantity::total_water, "total_water", Of::water, false},
     {GaugeQuantity::kinetic_energy, "kinetic_energy", Of::both, false},
+    {GaugeQuantity::momentum, "momentum", Of::both, false},
     {GaugeQuantity::max_speed, "max_speed", Of::water, false},
     {GaugeQuantity::section_flux, "section_flux", Of::water, false},
     {GaugeQuantity::overtopping, "overtopping", Of::water, false},

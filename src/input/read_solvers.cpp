@@ -273,8 +273,13 @@ void read_coupling(Section& root, CaseOptions& options) {
   if (coupling.mode == CouplingMode::unified) {
     for (const char* key : {"mudline", "pressure_in_time", "ramp", "added_mass_factor"})
       section.forbid(key, "it is for mode = \"surface\": with one water nothing is handed over");
+    coupling.grain_share = section.choice<GrainShare>(
+        "grain_share", {{"points", GrainShare::points}, {"cells", GrainShare::cells}},
+        coupling.grain_share);
     return section.finish();
   }
+  section.forbid("grain_share",
+                 "it is for mode = \"unified\", where one pressure moves grains and water");
   coupling.mudline = section.choice<Mudline>("mudline",
                                              {{"consistent", Mudline::consistent},
                                               {"load-only", Mudline::load_only},

@@ -176,6 +176,17 @@ double kinetic_energy(World<D>& world) {
   return energy;
 }
 
+/// With one water the grains' of the faces: the points take theirs over when they next move.
+template <int D>
+Vec<D> momentum(World<D>& world) {
+  Vec<D> sum = world.flow() ? world.flow()->momentum() : Vec<D>{};
+  if (world.unified())
+    sum += world.unified()->grain_momentum();
+  else if (world.soil())
+    sum += world.soil()->totals().momentum;
+  return sum;
+}
+
 }  // namespace
 
 std::vector<std::string> gauge_columns(const GaugeOptions& gauge, int dimension) {
@@ -193,6 +204,8 @@ std::vector<std::string> gauge_columns(const GaugeOptions& gauge, int dimension)
       return {"water volume [" + volume + "]"};
     case GaugeQuantity::kinetic_energy:
       return {"kinetic energy [" + energy + "]"};
+    case GaugeQuantity::momentum:
+      return per_axis("momentum", dimension == 2 ? "kg/s" : "kg m/s", dimension);
     case GaugeQuantity::max_speed:
       return {"largest speed [m/s]"};
     case GaugeQuantity::section_flux:
@@ -249,6 +262,10 @@ std::vector<double> read_gauge(World<D>& world, const GaugeOptions& gauge) {
       return {world.flow()->ledger().present};
     case GaugeQuantity::kinetic_energy:
       return {kinetic_energy(world)};
+    case GaugeQuantity::momentum: {
+      const Vec<D> sum = momentum(world);
+      return {sum.component.begin(), sum.component.end()};
+    }
     case GaugeQuantity::max_speed:
       return {world.flow()->max_speed().speed};
     case GaugeQuantity::section_flux:

@@ -30,6 +30,7 @@ enum class GaugeQuantity {
   front,               ///< largest x that water reaches [m] (no `at`)
   total_water,         ///< volume of free-flow water [m^D] (no `at`)
   kinetic_energy,      ///< of water and soil [J] (J/m in 2D) (no `at`)
+  momentum,            ///< of water and soil, one column per axis [kg m/s] (per m in 2D) (no `at`)
   max_speed,           ///< largest speed of the water [m/s] (no `at`)
   section_flux,        ///< water through a section, mean over the last outer step [m^D/s]
   overtopping,         ///< water through a section since the start [m^D], and as section_flux

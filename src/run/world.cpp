@@ -53,7 +53,7 @@ World<D>::World(const CaseOptions& options, MPI_Comm comm)
     load_.emplace(grid_);
   }
   if (flow_ && soil_ && options.coupling.mode == CouplingMode::unified) {
-    unified_.emplace(grid_, *soil_);
+    unified_.emplace(grid_, *soil_, options.coupling.grain_share);
     if (const double bulk = options.soil->water_bulk_modulus; std::isfinite(bulk))
       flow_->let_water_give_way(1.0 / bulk);
   }

@@ -39,6 +39,8 @@ class World {
   const Grid<D>& grid() const { return grid_; }
   FlowSolver<D>* flow() { return flow_ ? &*flow_ : nullptr; }
   SoilSolver<D>* soil() { return soil_ ? &*soil_ : nullptr; }
+  /// Null without one water.
+  UnifiedCoupling<D>* unified() { return unified_ ? &*unified_ : nullptr; }
   const PorousMedium<D>& medium() const { return medium_; }
   Clock& clock() { return clock_; }
   /// Added-mass number a of the coupling for a step [s] (above 1/2 loose coupling would diverge); 0

@@ -26,7 +26,8 @@ inline void expect_conservation(World<D>& world) {
 
 /// Soil of a shape and of water's permeability `conductivity` [m/s] in water up to a level [m], in
 /// the plane.
-inline CaseOptions soil_in_water(const Shape& shape, double level, double conductivity, double modulus) {
+inline CaseOptions soil_in_water(const Shape& shape, double level, double conductivity,
+                                 double modulus) {
   CaseOptions c;
   constexpr double gravity = 9.81, density = 1000.0;
   c.domain.gravity = {0.0, -gravity, 0.0};

@@ -59,18 +59,24 @@ double read(World<D>& world, GaugeQuantity quantity, double height) {
 }
 
 template <int D>
-void stays_at_rest() {
-  World<D> world(bed<D>(0.05, 1e-3, 1e6), MPI_COMM_WORLD);
+void stays_at_rest(GrainShare share, double settled, double speed) {
+  CaseOptions options = bed<D>(0.05, 1e-3, 1e6);
+  options.coupling.grain_share = share;
+  World<D> world(options, MPI_COMM_WORLD);
   world.initialise();
   run_until(world, 0.25);
   const double self_weight = 0.5 * (1.0 - porosity) * (grain_density - 1000.0) * gravity / 1e6;
-  EXPECT_LT(std::abs(read(world, GaugeQuantity::settlement, 0.98)), 1e-4 * self_weight);
-  EXPECT_LT(read(world, GaugeQuantity::max_speed, 0.0), 1e-6);
+  EXPECT_LT(std::abs(read(world, GaugeQuantity::settlement, 0.98)), settled * self_weight);
+  EXPECT_LT(read(world, GaugeQuantity::max_speed, 0.0), speed);
   EXPECT_NEAR(read(world, GaugeQuantity::pressure, 0.3), 1000.0 * gravity * 0.9, 1.0);
   expect_conservation(world);
 }
-TEST(OneWater, ASubmergedBedStaysAtRest) { stays_at_rest<2>(); }
-TEST(OneWater, ASubmergedBedStaysAtRestIn3D) { stays_at_rest<3>(); }
+TEST(OneWater, ASubmergedBedStaysAtRest) { stays_at_rest<2>(GrainShare::points, 1e-4, 1e-6); }
+/// It moves, slowly, until what the points and what the cells have of it agree.
+TEST(OneWater, ASubmergedBedHardlyMovesWithTheSharesOfCells) {
+  stays_at_rest<2>(GrainShare::cells, 1e-3, 1e-5);
+}
+TEST(OneWater, ASubmergedBedStaysAtRestIn3D) { stays_at_rest<3>(GrainShare::points, 1e-4, 1e-6); }
 
 /// Pore pressure at the base over the load (Terzaghi 1943).
 double isochrone_at_the_base(double T) {
