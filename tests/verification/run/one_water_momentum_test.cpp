@@ -1,13 +1,12 @@
 // ranks: 1 3
 // Momentum of water and grains in a closed box, one water (NUMERICS C2): pressure and drag pass it
 // from one to the other, and with grain_share = "cells" none of it goes astray.
-#include "verification/run/one_water.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "run/gauges.hpp"
+#include "verification/run/one_water.hpp"
 
 namespace mudlark {
 namespace {

@@ -45,12 +45,10 @@ Roughness roughness(World<2>& world, double level) {
   return found;
 }
 
-/// A mound without stress is let go in water: it settles, and water goes out of it. A pressure that
-/// alternated from cell to cell would depart from its neighbours' mean by as much as it is high. At
-/// the surface of soil that lets little through, the pressure falls within less than a cell
-/// (sqrt(c_v t) is 2 cm for k = 1e-4 m/s, cells have 5): that step is no checkerboard, so only the
-/// cells among grains are held to 5 % there.
-TEST(OneWaterMound, PressureHasNoCheckerboard) {
+/// Largest over 0.05 s in which a mound without stress is let go in water: it settles, and water
+/// goes out of it. A pressure that alternated from cell to cell would depart from its neighbours'
+/// mean by as much as it is high.
+Roughness of_a_mound(GrainShare share, double conductivity) {
   const double level = 1.5;
   PolygonShape mound;  // half of one, beside a wall that is its axis
   mound.corners.push_back({-1.0, 0.0});
@@ -58,27 +56,40 @@ TEST(OneWaterMound, PressureHasNoCheckerboard) {
     mound.corners.push_back(
         {i / 24.0, 0.8 * std::pow(std::cos(0.5 * std::numbers::pi * i / 24.0), 2)});
   mound.corners.push_back({-1.0, 0.8});
+  CaseOptions c = soil_in_water(Shape{mound}, level, conductivity, 5e5);
+  c.domain.cells = {24, 32, 1};
+  c.domain.upper = {1.2, 1.6, 0.0};
+  c.coupling.grain_share = share;
+  World<2> world(c, MPI_COMM_WORLD);
+  world.initialise();
+  Roughness worst;
+  while (world.clock().time() < 0.05) {
+    world.advance(0.9 * world.stable_step());
+    const Roughness now = roughness(world, level);
+    worst.peak = std::max(worst.peak, now.peak);
+    worst.anywhere = std::max(worst.anywhere, now.anywhere);
+    worst.inside = std::max(worst.inside, now.inside);
+  }
+  std::printf("k = %g m/s: departs by %.1f %% of the peak, among grains %.1f %%\n", conductivity,
+              100.0 * worst.anywhere / worst.peak, 100.0 * worst.inside / worst.peak);
+  EXPECT_GT(worst.peak, 1000.0);
+  return worst;
+}
+
+TEST(OneWaterMound, PressureHasNoCheckerboard) {
   for (const double conductivity : {1e-2, 1e-4, 1e-9}) {
-    CaseOptions c = soil_in_water(Shape{mound}, level, conductivity, 5e5);
-    c.domain.cells = {24, 32, 1};
-    c.domain.upper = {1.2, 1.6, 0.0};
-    World<2> world(c, MPI_COMM_WORLD);
-    world.initialise();
-    Roughness worst;
-    while (world.clock().time() < 0.05) {
-      world.advance(0.9 * world.stable_step());
-      const Roughness now = roughness(world, level);
-      worst.peak = std::max(worst.peak, now.peak);
-      worst.anywhere = std::max(worst.anywhere, now.anywhere);
-      worst.inside = std::max(worst.inside, now.inside);
-    }
-    std::printf("k = %g m/s: departs by %.1f %% of the peak, among grains %.1f %%\n", conductivity,
-                100.0 * worst.anywhere / worst.peak, 100.0 * worst.inside / worst.peak);
-    EXPECT_GT(worst.peak, 1000.0);
-    EXPECT_LT(worst.inside, 0.05 * worst.peak) << "k = " << conductivity;
-    if (conductivity == 1e-2) {
-      EXPECT_LT(worst.anywhere, 0.05 * worst.peak);
-    }
+    const Roughness found = of_a_mound(GrainShare::cells, conductivity);
+    EXPECT_LT(found.anywhere, 0.05 * found.peak) << "k = " << conductivity;
+  }
+}
+
+/// What the points have of a face and what the water of its cells leaves differ most at the surface
+/// of the soil: there pressure departs by 9 % where the soil lets little through.
+TEST(OneWaterMound, PressureHasNoCheckerboardAmongGrainsWithTheSharesOfPoints) {
+  for (const double conductivity : {1e-2, 1e-9}) {
+    const Roughness found = of_a_mound(GrainShare::points, conductivity);
+    EXPECT_LT(found.inside, 0.05 * found.peak) << "k = " << conductivity;
+    EXPECT_LT(found.anywhere, 0.12 * found.peak) << "k = " << conductivity;
   }
 }
 
