@@ -41,11 +41,24 @@ void UnifiedCoupling<D>::map_soil_to_grid(SoilSolver<D>& soil, const PorousMediu
                                           PorousMedium<D>& medium) {
   room_.find(soil, fixed, medium);
   map_partly_filled(soil, fixed, medium);
+  if (grains_.fill_faces) find_room(fixed, medium.space);
   if (drag_.active()) return;
   for (int a = 0; a < D; ++a)
     room_.for_each_inner_face(a, [&](const Index<D>& face) {
       const double open = medium.space.aperture[a][face];  // only there water resists
       grains_.resistance[a][face] = open > 0.0 ? room_.resistance_at(a, face) / open : 0.0;
+    });
+}
+
+template <int D>
+void UnifiedCoupling<D>::find_room(const PorousMedium<D>& fixed, const Space<D>& space) {
+  for (int a = 0; a < D; ++a)
+    room_.for_each_inner_face(a, [&](const Index<D>& face) {
+      const auto ground = [&](const Index<D>& cell) {
+        return space.volume[cell] > 0.0 ? fixed.porosity[cell] : 1.0;
+      };
+      grains_.room[a][face] =
+          space.aperture[a][face] * 0.5 * (ground(face) + ground(face.shifted(a, -1)));
     });
 }
 
@@ -142,6 +155,7 @@ void UnifiedCoupling<D>::push_beside_solids(const Space<D>& space) {
 template <int D>
 void UnifiedCoupling<D>::follow_water(const FlowSolver<D>& flow, SoilSolver<D>& soil, double dt) {
   soil.press_solids(grains_.velocity, dt);
+  soil.rub_walls(before_, dt, grains_.velocity);
   for (int a = 0; a < D; ++a)
     for_each(grid_->owned_faces(a), [&](const Index<D>& face) {
       change_[a][face] = grains_.velocity[a][face] - before_[a][face];

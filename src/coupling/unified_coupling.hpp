@@ -54,6 +54,7 @@ class UnifiedCoupling {
   double damping_force(int axis, const Index<D>& face, double velocity, double damping) const;
   void map_partly_filled(SoilSolver<D>& soil, const PorousMedium<D>& fixed,
                          PorousMedium<D>& medium);
+  void find_room(const PorousMedium<D>& fixed, const Space<D>& space);
   void note_pore_pressure(const FlowSolver<D>& flow, SoilSolver<D>& soil);
   void extend_into_solids(const FlowSolver<D>& flow);
   void push_beside_solids(const Space<D>& space);

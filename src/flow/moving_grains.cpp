@@ -107,12 +107,13 @@ void GrainsInWater<D>::find_shares(const FaceVector<D>& capacity, FaceVector<D>&
     water_share_[axis].copy_values_from(capacity[axis]);
     if (!grains.fill_faces) continue;
     const double *theta = capacity[axis].data(), *inertia = grains.inertia[axis].data();
+    const double* room = grains.room[axis].data();
     double *share = grains.share[axis].data(), *rest = water_share_[axis].data();
     double* m = mobility[axis].data();
     for_each_offset(*grid_, bounding_faces(*grid_, axis), [&](std::ptrdiff_t at) {
       if (theta[at] == 0.0) return;
-      share[at] = std::clamp(1.0 - theta[at], 0.0, most * share[at]);
-      rest[at] = 1.0 - share[at];
+      share[at] = std::clamp(room[at] - theta[at], 0.0, most * share[at]);
+      rest[at] = room[at] - share[at];
       if (inertia[at] == 0.0) m[at] *= rest[at] / theta[at];
     });
   }

@@ -14,7 +14,8 @@ struct MovingGrains {
         share(grid, "grain share", "1"),
         force(grid, "grain force", "N/m3"),
         resistance(grid, "resistance", "Pa s/m2"),
-        velocity(grid, "grain velocity", "m/s") {}
+        velocity(grid, "grain velocity", "m/s"),
+        room(grid, "room", "1", 1.0) {}
 
   FaceVector<D> inertia;     ///< M_s, mass of grains per volume [kg/m3]
   FaceVector<D> share;       ///< phi_f, volume of grains per volume [-]
@@ -23,7 +24,8 @@ struct MovingGrains {
   FaceVector<D> velocity;    ///< v_s [m/s]: before the step, then after it
   PoreFilling filling;       ///< how the pores let water pass where they are not full
   bool hold_water = false;   ///< is there suction between them?
-  bool fill_faces = false;   ///< phi_f = 1 - theta_f: pressure then moves no momentum but to walls
+  FaceVector<D> room;  ///< what bodies and fixed ground leave of a face to grains and water [-]
+  bool fill_faces = false;  ///< do the shares of both add up to that room? Else each has its own
 };
 
 /// Momentum of water and grains on the faces of a step, drag implicit, and how both answer to a

@@ -45,19 +45,15 @@ std::vector<std::string> excluded(const CaseOptions& options) {
   };
   no(has([](const SoilBoundary& part) { return part.for_water; }), "water through a [[boundary]]");
   no(has([](const SoilBoundary& part) {
-       return part.for_grains && part.grains != GrainSide::slip && part.grains != GrainSide::fixed;
+       return part.for_grains && part.grains != GrainSide::slip &&
+              part.grains != GrainSide::fixed && part.grains != GrainSide::friction;
      }),
-     "a [[boundary]] whose grains are neither \"slip\" nor \"fixed\"");
+     "a [[boundary]] whose grains are neither \"slip\", \"fixed\" nor \"friction\"");
   no(has([&](const SoilBoundary& part) {
        return options.domain.walls[static_cast<std::size_t>(part.axis)]
                                   [static_cast<std::size_t>(part.side)] == Wall::open;
      }),
      "a [[boundary]] on an \"open\" wall");
-  if (options.coupling.grain_share == GrainShare::cells) {
-    no(!soil.solids.empty(), "coupling.grain_share = \"cells\" and a [[solid]]");
-    no(options.flow && !options.flow->porous.empty(),
-       "coupling.grain_share = \"cells\" and [[porous]] ground");
-  }
   no(soil.start_in_equilibrium.has_value(), "soil_solver.start_in_equilibrium");
   no(soil.stop_when_static.has_value(), "soil_solver.stop_when_static");
   no(soil.water_damping.value_or(soil.damping) != soil.damping,
@@ -70,12 +66,6 @@ std::vector<std::string> excluded(const CaseOptions& options) {
   no(soil.body_acceleration.has_value(), "soil_solver.body_acceleration");
   no(options.flow && options.flow->body_acceleration.has_value(),
      "flow_solver.body_acceleration, which the grains would not feel,");
-  const auto dimension = static_cast<std::size_t>(options.domain.dimension);
-  for (std::size_t a = 0; a < dimension; ++a)
-    for (std::size_t side = 0; side < 2; ++side) {
-      const Wall wall = options.domain.walls[a][side];
-      no(wall == Wall::friction, "a wall of type \"friction\"");
-    }
   return words;
 }
 

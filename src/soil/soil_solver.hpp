@@ -85,10 +85,12 @@ class SoilSolver {
   /// rigid bodies move over dt [s] with the velocity of the grains, and what it changed by, on this
   /// rank's own faces; then they leave their sums on the faces again, loads of that time and what
   /// bodies pressed with before included; then bodies press with what the velocity that came of it
-  /// still asks for. All collective; the first throws DivergenceError on all ranks.
+  /// still asks for, and walls of friction hold back. All collective; the first throws
+  /// DivergenceError on all ranks.
   void move_with(const FaceVector<D>& velocity, const FaceVector<D>& change, double dt);
   const NodeField<NodeSums, D>& load_faces(double dt);
   void press_solids(FaceVector<D>& velocity, double dt);
+  void rub_walls(const FaceVector<D>& before, double dt, FaceVector<D>& velocity);
 
   const SoilOptions& options() const { return options_; }
   std::size_t bodies() const { return points_.size(); }

@@ -49,6 +49,26 @@ void SoilSolver<D>::press_solids(FaceVector<D>& velocity, double dt) {
 }
 
 template <int D>
+void SoilSolver<D>::rub_walls(const FaceVector<D>& before, double dt, FaceVector<D>& velocity) {
+  if (wall_contact_.empty()) return;
+  for (int d = 0; d < D; ++d) {
+    auto& motion = motion_[static_cast<std::size_t>(d)];
+    for_each(active_, [&](const Index<D>& face) { motion[face] = {}; });
+    for_each(grid_->owned_faces(d).intersected(active_), [&](const Index<D>& face) {
+      const double v = velocity[d][face];
+      motion[face] = {v, v - before[d][face], v, 0.0, v};
+    });
+  }
+  if (exchanges_halos(*grid_)) halo_.exchange(as_doubles<NodeMotion, D>(motion_), node_motions);
+  const double flip = options_.transfer == Transfer::apic ? 0.0 : options_.flip_fraction;
+  wall_contact_.apply(sides_, {dt, flip, options_.mass_scaling, true}, sums_, motion_);
+  for (int d = 0; d < D; ++d)
+    for_each(grid_->owned_faces(d).intersected(active_), [&](const Index<D>& face) {
+      velocity[d][face] = motion_[static_cast<std::size_t>(d)][face].grain_velocity;
+    });
+}
+
+template <int D>
 void SoilSolver<D>::suction(CellField<D>& field) {
   field.fill(0.0);
   for (std::size_t b = 0; b < points_.size(); ++b) {
@@ -69,6 +89,8 @@ template void SoilSolver<2>::move_with(const FaceVector<2>&, const FaceVector<2>
 template void SoilSolver<3>::move_with(const FaceVector<3>&, const FaceVector<3>&, double);
 template void SoilSolver<2>::press_solids(FaceVector<2>&, double);
 template void SoilSolver<3>::press_solids(FaceVector<3>&, double);
+template void SoilSolver<2>::rub_walls(const FaceVector<2>&, double, FaceVector<2>&);
+template void SoilSolver<3>::rub_walls(const FaceVector<3>&, double, FaceVector<3>&);
 template const NodeField<NodeSums, 2>& SoilSolver<2>::load_faces(double);
 template const NodeField<NodeSums, 3>& SoilSolver<3>::load_faces(double);
 

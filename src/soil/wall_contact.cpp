@@ -35,13 +35,22 @@ WallContact<D>::WallContact(const SoilSides<D>& sides) : grid_(&sides.grid()), h
         walls_.push_back({axis, side, CellField<D>(grid, "impulse of the wall", "kg m/s")});
 }
 
+/// What moved the grains of a face beside the forces of the points' sums, per mass [m/s].
+template <int D>
+double WallContact<D>::unsummed_push(const NodeSums& sum, const NodeMotion& node,
+                                     const Change& change) {
+  if (sum.grain_mass <= 0.0) return 0.0;
+  return change.inertia * node.grain_change - change.dt * sum.mixture_force / sum.grain_mass;
+}
+
 /// Points near the wall own a share of the faces behind it. By the law of action and reaction what
 /// the wall gives them is the change of their momentum less the forces on them; in the domain the
 /// folded faces balance, and what is left is, behind the wall and with m, p, F the points' own sums
 /// there,  2 {m [f dv + (1-f) v] + (1-f) p + F dt - D dt u},  f the share of FLIP, v, dv the motion
 /// of the face in front, u the water's motion past its grains. On the wall's face, which does not
 /// move, it is half of that. A mirrored motion that merely goes on, as in soil that spreads and
-/// sinks, gives none: m v = -p.
+/// sinks, gives none: m v = -p. A pressure that only the faces know is in dv; grains on the wall's
+/// face, which does not move, are pushed by it like those of the first face before it.
 template <int D>
 void WallContact<D>::measure(const SoilSides<D>& sides, const Change& change,
                              const NodeField<NodeSums, D>& sums,
@@ -73,6 +82,11 @@ void WallContact<D>::measure(const SoilSides<D>& sides, const Change& change,
             left += change.inertia * own.grain_mass *
                         (flip * image.grain_change + rest * image.grain_velocity) -
                     change.dt * own.drag * (image.water_velocity - image.grain_velocity);
+          }
+          if (layer == 0 && change.lifted) {
+            Index<D> first = cell;
+            first[wall.axis] = face - outwards;
+            left += own.grain_mass * unsummed_push(sums[u][first], motion[u][first], change);
           }
           given += (layer == 0 ? 1.0 : 2.0) * left;
         }

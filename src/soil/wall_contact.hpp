@@ -20,9 +20,10 @@ class WallContact {
   bool empty() const { return walls_.empty(); }
   /// How velocities change in a step.
   struct Change {
-    double dt;       ///< [s]
-    double flip;     ///< share of FLIP in what points get [-]
-    double inertia;  ///< factor on the mass [-]
+    double dt;            ///< [s]
+    double flip;          ///< share of FLIP in what points get [-]
+    double inertia;       ///< factor on the mass [-]
+    bool lifted = false;  ///< do grains weigh less by a pressure that is no part of the sums?
   };
   /// Takes the friction of a step from the motion of the faces along the walls. `sums` are folded
   /// into the domain, and behind the walls still as points left them. Collective.
@@ -30,6 +31,8 @@ class WallContact {
              NodeField<NodeMotion, D>& motion);
 
  private:
+  static double unsummed_push(const NodeSums& sum, const NodeMotion& node, const Change& change);
+
   struct Side {
     int axis, side;
     /// With which it presses, times the coefficient of friction, in the cells along it [kg m/s].
