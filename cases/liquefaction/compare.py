@@ -3,7 +3,9 @@
 shaken, and afterwards a front of settled sand rises from the base at the speed of solidification theory. Draws pressures
 and front, prints the errors, and exits with 1 when one is beyond its tolerance.
 
-    python3 cases/liquefaction/compare.py [FOLDER] [--results results] [--picture FILE.png]
+    /usr/bin/python3 cases/liquefaction/compare.py [--results results] [--picture FILE.png]
+
+--results: with the folders column and one_water of the two cases.
 """
 import argparse
 import sys
@@ -23,6 +25,7 @@ if not (PACKAGE / "mudlark").is_dir():
 sys.path.insert(0, str(PACKAGE))
 from mudlark.results import Results
 
+CASES = {"column": "pore water of the points", "one_water": "one water"}
 WATER, GRAINS, GRAVITY = 1000.0, 2650.0, 9.81
 PRESSURE_TAKES_OVER = 0.95     # share of the initial vertical effective stress
 FRONT_SPEED, DURATION, SETTLEMENT, BASE_PRESSURE = 0.05, 0.05, 0.03, 0.05  # tolerances; pressure as a share of its start
@@ -77,6 +80,9 @@ class Column:
         self.gauges = {gauge["name"]: gauge["at"][1] for gauge in case["gauge"] if gauge["quantity"] == "pore_pressure"}
         surface = next(gauge for gauge in case["gauge"] if gauge["name"] == "surface")
         self.surface_share = surface["at"][1] / self.theory.height  # settled strain is the same at all heights
+        # With one water its surface stays; pore water of the points drains at their own surface.
+        bodies = case["water"].get("body", [])
+        self.level = bodies[0]["shape"]["box"]["upper"][1] if bodies else None
         self.status = self.results.summary.get("status", "unknown")
 
     def share_of_weight(self, name):
@@ -88,7 +94,7 @@ class Column:
     def excess_at_base(self):
         gauge, surface = self.results.gauge("p_base"), self.results.gauge("surface")
         sunk = np.interp(gauge.time, surface.time, surface["settlement"])
-        depth = self.theory.height - sunk - self.gauges["p_base"]
+        depth = (self.level or self.theory.height - sunk) - self.gauges["p_base"]
         return gauge.time, gauge["pore pressure"] - WATER * GRAVITY * depth
 
     def front(self):
@@ -143,9 +149,9 @@ def judge(column, findings):
     findings.gate("excess pressure at the base, root mean square", np.sqrt((difference**2).mean()), BASE_PRESSURE)
 
 
-def draw(column, picture):
+def draw(column, axes):
+    left, middle, right = axes
     theory = column.theory
-    figure, (left, middle, right) = plt.subplots(1, 3, figsize=(14, 4.2), layout="constrained")
     for name, height in column.gauges.items():
         time, share = column.share_of_weight(name)
         left.plot(time[time < 3], share[time < 3], lw=0.9, label=f"z = {height:g} m")
@@ -168,27 +174,27 @@ def draw(column, picture):
         axis.legend(frameon=False, fontsize=8)
         axis.grid(color="0.92", lw=0.6)
         axis.spines[["top", "right"]].set_visible(False)
-    picture.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(picture, dpi=150)
-    print(f"picture: {picture}")
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", nargs="?", type=Path)
     parser.add_argument("--results", type=Path, default=Path("results"))
-    parser.add_argument("--picture", type=Path, default=None)
+    parser.add_argument("--picture", type=Path, default=Path("liquefaction.png"))
     arguments = parser.parse_args()
-    folder = arguments.folder or arguments.results / "column"
-    if not (folder / "case.toml").exists():
-        print(f"nothing to compare: there are no results in {folder}; run cases/liquefaction/column.toml -o {folder}")
-        return 1
-    column, findings = Column(folder), Findings()
-    if column.status != "done":
-        findings.misses += 1
-        print(f"  the run is not complete: {column.status}  MISSED")
-    judge(column, findings)
-    draw(column, arguments.picture or folder.parent / "liquefaction.png")
+    findings = Findings()
+    figure, axes = plt.subplots(len(CASES), 3, figsize=(14, 8), layout="constrained")
+    for row, (name, title) in zip(axes, CASES.items()):
+        column = Column(arguments.results / name)
+        print(f"{name}.toml: {title}")
+        if column.status != "done":
+            findings.misses += 1
+            print(f"  the run is not complete: {column.status}  MISSED")
+        judge(column, findings)
+        draw(column, row)
+        row[0].set_ylabel(f"{title}\nexcess pore pressure / vertical effective stress")
+    arguments.picture.parent.mkdir(parents=True, exist_ok=True)
+    figure.savefig(arguments.picture, dpi=110)
+    print(f"picture: {arguments.picture}")
     print("every number is within its tolerance" if not findings.misses else f"{findings.misses} numbers are beyond their tolerance")
     return 1 if findings.misses else 0
 

@@ -63,9 +63,8 @@ std::vector<std::string> excluded(const CaseOptions& options) {
      "a water_damping in a [[stage]], as the water is the flow's,");
   no(soil.load_form != LoadForm::virtual_stress, "soil_solver.load_form = \"facets\"");
   no(soil.kernel == Kernel::linear, "soil_solver.kernel = \"linear\"");
-  no(soil.body_acceleration.has_value(), "soil_solver.body_acceleration");
-  no(options.flow && options.flow->body_acceleration.has_value(),
-     "flow_solver.body_acceleration, which the grains would not feel,");
+  no(soil.body_acceleration.has_value(),
+     "soil_solver.body_acceleration, as that of [flow_solver] moves grains and water,");
   return words;
 }
 
@@ -167,9 +166,9 @@ void check_unified(Section& root, CaseOptions& options) {
                  fmt::format("with coupling.mode = \"unified\" all soils have one "
                              "relative_permeability, and soil \"{}\" has another than soil \"{}\"",
                              body.name, bodies.front().name));
-  if (options.flow)
-    for (const WaterBody& water : options.flow->bodies)
-      options.soil->flooded.push_back(water.shape);
+  if (!options.flow) return;
+  options.soil->body_acceleration = options.flow->body_acceleration;
+  for (const WaterBody& water : options.flow->bodies) options.soil->flooded.push_back(water.shape);
 }
 
 }  // namespace mudlark

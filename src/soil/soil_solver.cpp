@@ -206,7 +206,7 @@ void SoilSolver<D>::sort_strays() {
 
 /// Points to faces: sums on owned faces, mirrored walls included.
 template <int D>
-void SoilSolver<D>::gather_nodes() {
+void SoilSolver<D>::gather_nodes(double body_force_time) {
   for (auto& field : sums_)
     for_each(active_, [&](const Index<D>& face) { field[face] = NodeSums{}; });
   SurfacePressure<D> surface = surface_.at(time_);
@@ -216,7 +216,7 @@ void SoilSolver<D>::gather_nodes() {
                    facets ? SurfacePressure<D>{} : surface, sums_);
   if (projection_) projection_->measure(points_, constants_);
   if (exchanges_halos(*grid_)) halo_.add_to_owners(as_doubles<NodeSums, D>(sums_), node_sums);
-  add_body_force(*grid_, options_, time_, active_, sums_);
+  add_body_force(*grid_, options_, body_force_time, active_, sums_);
   gather_sides();
   if (facets) {
     for_each(active_, [&](const Index<D>& cell) { occupied_[cell] = 0.0; });

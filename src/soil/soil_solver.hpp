@@ -169,7 +169,8 @@ class SoilSolver {
   }
 
  private:
-  void gather_nodes();
+  void gather_nodes() { gather_nodes(time_); }
+  void gather_nodes(double body_force_time);
   void gather_sides();
   void solve_nodes(double dt);
   bool damps() const {

@@ -33,7 +33,7 @@ const NodeField<NodeSums, D>& SoilSolver<D>::load_faces(double dt) {
   length_ = step_ = dt;
   surface_.begin_step(time_, dt, nullptr, active_);
   sides_.update(time_, dt);
-  gather_nodes();
+  gather_nodes(time_ - 0.5 * dt);  // that of the water, in the middle of the step
   if (solid_contact_) {
     for (Solid& solid : solids_) solid.begin_step(time_, dt, false);
     solid_contact_->lean(dt, constants_, active_, solids_, points_, sums_);

@@ -14,7 +14,7 @@ constexpr double mixture = 0.6 * 2650.0 + 0.4 * 1000.0, submerged = mixture - 10
 /// of the grains along the slope after a time [m/s].
 double slide(double friction, Transfer transfer, double time) {
   CaseOptions c = soil_in_water(Shape{BoxShape{{-9, -9, -9}, {9, 9, depth}}}, depth, 1e-4, 2e7);
-c.domain.cells = {9, 16, 1};
+  c.domain.cells = {9, 16, 1};
   c.domain.upper = {0.45, 0.8, 0.0};
   c.domain.gravity = {along, -down, 0.0};
   c.domain.walls[0] = {Wall::periodic, Wall::periodic};

@@ -54,5 +54,25 @@ TEST(OneWaterMomentum, DriftsWhereGrainsTakeTheShareOfTheirPoints) {
   EXPECT_GT(drift_of_momentum(GrainShare::points, 50), 1e-6);
 }
 
+/// In a frame that is accelerated grains and water fall alike. What moves them against each other
+/// is the drift of the cells' porosity that is led back: little.
+TEST(OneWaterMomentum, GrowsAlikeInGrainsAndWaterThatAreAccelerated) {
+  CaseOptions c = thrown_block(GrainShare::cells, 1e-3);
+  c.soil->bodies.front().initial_velocity[0] = Varying(0.0);
+  c.flow->body_acceleration = {Varying([](const Point3&, double t) { return 1.0 + 20.0 * t; }, "a"),
+                               Varying(0.0), Varying(0.0)};
+  c.soil->body_acceleration = c.flow->body_acceleration;  // as the reader has it
+  World<2> world(c, MPI_COMM_WORLD);
+  world.initialise();
+  for (int step = 0; step < 20; ++step) world.advance(1e-3);
+  const double time = world.clock().time(), speed = time + 10.0 * time * time;
+  const double grains = world.soil()->totals().grain_mass;
+  const double water = 1000.0 * world.flow()->ledger().present;
+  GaugeOptions gauge;
+  gauge.quantity = GaugeQuantity::momentum;
+  EXPECT_NEAR(read_gauge(world, gauge)[0], (grains + water) * speed, 1e-12 * (grains + water));
+  EXPECT_NEAR(world.unified()->grain_momentum()[0], grains * speed, 1e-3 * grains * speed);
+}
+
 }  // namespace
 }  // namespace mudlark
