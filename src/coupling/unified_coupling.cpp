@@ -32,8 +32,9 @@ UnifiedCoupling<D>::UnifiedCoupling(const Grid<D>& grid, const SoilSolver<D>& so
   const auto& bodies = soil.options().bodies;
   grains_.filling = bodies.front().filling;
   grains_.fill_faces = share == GrainShare::cells;
-  grains_.hold_water = std::any_of(bodies.begin(), bodies.end(),
-                                   [](const SoilBody& body) { return body.filling.suction > 0.0; });
+  for (const SoilBody& body : bodies)
+    strongest_suction_ = std::max(strongest_suction_, body.filling.suction);
+  grains_.hold_water = strongest_suction_ > 0.0;
 }
 
 template <int D>
@@ -71,8 +72,12 @@ void UnifiedCoupling<D>::map_partly_filled(SoilSolver<D>& soil, const PorousMedi
   });
   if (!grains_.hold_water) return;
   soil.suction(medium.suction);
-  for_each(grid_->local(),
-           [&](const Index<D>& cell) { medium.suction[cell] += fixed.suction[cell]; });
+  // Beside bodies as strong as far from them, and where grains were squeezed no stronger.
+  for_each(grid_->local(), [&](const Index<D>& cell) {
+    medium.suction[cell] =
+        std::min(medium.suction[cell] / room_.reach_at(cell), strongest_suction_) +
+        fixed.suction[cell];
+  });
 }
 
 template <int D>

@@ -67,9 +67,10 @@ class UnifiedCoupling {
   std::optional<PressureExtension<D>> extension_;  ///< where there are bodies
   CellField<D> open_, wet_;                        ///< cells that are no body; with water
   MovingGrains<D> grains_;
-  double last_step_ = 0.0;  ///< [s]
-  FaceVector<D> change_;    ///< of the grains' velocity over the last step [m/s]
-  FaceVector<D> before_;    ///< that velocity before it [m/s]
+  double strongest_suction_ = 0.0;  ///< of all soils [Pa]
+  double last_step_ = 0.0;          ///< [s]
+  FaceVector<D> change_;            ///< of the grains' velocity over the last step [m/s]
+  FaceVector<D> before_;            ///< that velocity before it [m/s]
 };
 
 extern template class UnifiedCoupling<2>;

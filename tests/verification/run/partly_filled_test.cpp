@@ -125,18 +125,32 @@ TEST(PartlyFilled, APondSinksIntoDrySoil) {
 
 /// Dry grains over a fringe that hangs at its surface: pressure is below that of the air, and
 /// nothing moves.
-TEST(PartlyFilled, AFringeHangsInSoilAtRest) {
+void a_fringe_hangs(bool beside_a_wall) {
   CaseOptions c = column(20);
   c.flow->bodies.push_back({between(-9, 0.4), {}});
   add_soil(c, -9, 0.6, 1000.0);
+  if (beside_a_wall) {
+    FlowSolid wall;
+    wall.name = "wall";
+    wall.shape = Shape{BoxShape{{6 * h, -9, -9}, {9, 9, 9}}};
+    c.flow->solids.push_back(wall);
+    SolidOptions same;
+    same.name = wall.name;
+    same.shape = wall.shape;
+    c.soil->solids.push_back(same);
+  }
   World<2> world(c, MPI_COMM_WORLD);
   world.initialise();
   run_until(world, 0.2);
   EXPECT_NEAR(read(world, GaugeQuantity::pressure, 0.2), 1000.0 * gravity * 0.2 - 1000.0, 10.0);
   const double self_weight = 0.5 * (1.0 - porosity) * 2650.0 * gravity * 0.36 / 1e6;
-  EXPECT_LT(std::abs(read(world, GaugeQuantity::settlement, 0.58)), 1e-3 * self_weight);
+  // Points beside a wall reach into it, where no meniscus pulls at them.
+  const double settled = beside_a_wall ? 5e-3 : 1e-3;
+  EXPECT_LT(std::abs(read(world, GaugeQuantity::settlement, 0.58)), settled * self_weight);
   EXPECT_LT(read(world, GaugeQuantity::max_speed, 0.0), 1e-4);
 }
+TEST(PartlyFilled, AFringeHangsInSoilAtRest) { a_fringe_hangs(false); }
+TEST(PartlyFilled, AFringeHangsBesideAWallAtRest) { a_fringe_hangs(true); }
 
 /// Ground that is 0.3 full drains into dry ground by k_r = S^3: the front falls at k S^2 / n, and
 /// S = sqrt(n z / (3 k t)) at a depth z below the top, that nothing flows through.
