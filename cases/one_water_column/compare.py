@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Columns in one water against theory: large strain, own weight, a source below, a U-tube, a falling head; prints the findings, draws them.
+"""Columns in one water against theory: large strain, own weight, a source below, a U-tube, two permeameters; prints the findings, draws them.
 
     /usr/bin/python3 cases/one_water_column/compare.py --run build/release/bin/mudlark [--results results/one_water_column]
                                                        [--picture FILE.png]
@@ -10,6 +10,7 @@
   start; settlement at any time, 1 % of the final one.
 - boiling.toml: the gradient at which the grains weigh nothing, by the slope of the effective stresses below it, and that
   at which 1 % of them is left; tolerance 2 % of i_c = (1 - n) (G - 1).
+- permeameter.toml: discharge against k A h/L, tolerance 0.5 %.
 - falling_head.toml: head over the vessel's level against h_0 exp(-k t/L), tolerance 1 % of h_0, and k as a laboratory
   takes it from the time in which the head falls to 1/e, tolerance 1 %.
 - u_tube.toml: difference of the levels against h_0 exp(-2 k t/L), tolerance 1 % of h_0.
@@ -35,7 +36,7 @@ sys.path.insert(0, str(PACKAGE))
 from mudlark.reference.consolidation import LargeStrainColumn, constrained_modulus, final_settlement  # noqa: E402
 from mudlark.results import Results  # noqa: E402
 
-CASES = ("table1", "printed", "self_weight", "boiling", "u_tube", "falling_head")
+CASES = ("table1", "printed", "self_weight", "boiling", "u_tube", "permeameter", "falling_head")
 POROSITY, WEIGHT, BUOYANT = 0.4, 9810.0, 0.6 * 1650 * 9.81  # n, gamma_w, gamma' [N/m3]
 
 
@@ -116,6 +117,13 @@ def check_u_tube(results, findings, axis):
     axis.semilogy(left.time[::8], difference[::8], "o", ms=3, mfc="none", label="u_tube")
 
 
+def check_permeameter(results, findings):
+    exact = 0.01 * 0.2 * 0.2 / 0.2
+    for name in ("upstream", "downstream"):
+        discharge = Results(results / "permeameter").gauge(name)["discharge"][-1]
+        check(findings, f"permeameter: discharge {name}", 100 * (discharge / exact - 1), 0.5)
+
+
 def check_falling_head(results, findings, axis):
     conductivity, length, start = 0.01, 0.2, 0.2
     run = Results(results / "falling_head")
@@ -153,6 +161,7 @@ def main():
     check_boiling(arguments.results, findings, axes[2])
     axes[2].set(xlabel="gradient of the rising flow", title="boiling")
     check_u_tube(arguments.results, findings, axes[3])
+    check_permeameter(arguments.results, findings)
     check_falling_head(arguments.results, findings, axes[3])
     axes[3].set(xlabel="time [s]", ylabel="difference of the levels [m]", title="U-tube, falling head")
     for axis in axes:
