@@ -26,6 +26,10 @@ class UnifiedCoupling {
 
   /// Velocities of the grains at the start, after flow and soil have theirs. Collective.
   void initialise(const FlowSolver<D>& flow, const Space<D>& space, SoilSolver<D>& soil);
+  /// Moves the grains under the pressure of the water at rest until they are at rest too
+  /// (soil_solver.start_in_equilibrium). After initialise(); porosity, and with it the water, are
+  /// to be set again. Throws InputError on all ranks when the soil finds no rest. Collective.
+  void find_equilibrium(FlowSolver<D>& flow, const PorousMedium<D>& medium, SoilSolver<D>& soil);
   /// Rigid bodies stand where the space says. Collective.
   void place_solids(const Space<D>& space) { room_.find_reach(space); }
 
@@ -54,6 +58,10 @@ class UnifiedCoupling {
   double damping_force(int axis, const Index<D>& face, double velocity, double damping) const;
   void map_partly_filled(SoilSolver<D>& soil, const PorousMedium<D>& fixed,
                          PorousMedium<D>& medium);
+  struct Push;
+  struct Balance;
+  Balance step_towards_rest(const Push& push, const FlowSolver<D>& flow, const Space<D>& space,
+                            SoilSolver<D>& soil, double dt);
   void find_room(const PorousMedium<D>& fixed, const Space<D>& space);
   void note_pore_pressure(const FlowSolver<D>& flow, SoilSolver<D>& soil);
   void extend_into_solids(const FlowSolver<D>& flow);

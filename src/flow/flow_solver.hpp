@@ -107,6 +107,11 @@ class FlowSolver {
   SolidLoad solid_load(std::size_t body, const std::optional<BoxShape>& part) const;
   const SolveReport& last_solve() const { return last_solve_; }
 
+  /// What the present pressure does to grains that share it: acceleration of a unit mass per unit
+  /// of their share of a face [N/m3], and what menisci pull with [N/m3]. Collective.
+  void push_on_grains(const PorousMedium<D>& medium, FaceVector<D>& per_share,
+                      FaceVector<D>& menisci);
+
   /// The whole state: a run that goes on from it continues bit for bit.
   template <class Archive>
   void archive(Archive& a) {

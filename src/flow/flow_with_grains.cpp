@@ -1,5 +1,7 @@
 /// The step of water that shares its pressure with grains (NUMERICS C2), and pressures that are
 /// given.
+#include <algorithm>
+
 #include "flow/flow_solver.hpp"
 #include "numerics/loops.hpp"
 
@@ -11,6 +13,26 @@ template <int D>
 void FlowSolver<D>::push_given(const PorousMedium<D>& medium) {
   sides_.push(mobility_, projection_.unknown(), velocity_);
   if (!gas_) projection_.pull(mobility_, medium.suction, velocity_);
+}
+
+template <int D>
+void FlowSolver<D>::push_on_grains(const PorousMedium<D>& medium, FaceVector<D>& per_share,
+                                   FaceVector<D>& menisci) {
+  for (int a = 0; a < D; ++a) {
+    per_share[a].fill(0.0), menisci[a].fill(0.0);
+    mobility_[a].fill(1.0);
+    // At the surface only the grains below it feel the pressure, which falls over `reach`.
+    const double *reach = projection_.reach()[a].data(), *governed = projection_.unknown().data();
+    const std::ptrdiff_t s = grid_->stride(a);
+    double* m = mobility_[a].data();
+    for_each_offset(*grid_, bounding_faces(*grid_, a), [&](std::ptrdiff_t at) {
+      if (governed[at] * governed[at - s] == 0.0) m[at] = std::min(reach[at], 1.0);
+    });
+  }
+  projection_.push(mobility_, pressure_, per_share);
+  projection_.pull(mobility_, medium.suction, per_share);
+  projection_.hang(medium.suction, menisci);
+  ghosts_.add_to_owners(menisci);
 }
 
 /// One pressure makes the flux of water and grains together free of divergence and moves both.
@@ -44,6 +66,8 @@ void FlowSolver<D>::project_with_grains(const PorousMedium<D>& medium, const Cel
   projection_.push(both.grain_mobility(), pressure_, grains.velocity);
 }
 
+template void FlowSolver<2>::push_on_grains(const PorousMedium<2>&, FaceVector<2>&, FaceVector<2>&);
+template void FlowSolver<3>::push_on_grains(const PorousMedium<3>&, FaceVector<3>&, FaceVector<3>&);
 template void FlowSolver<2>::push_given(const PorousMedium<2>&);
 template void FlowSolver<3>::push_given(const PorousMedium<3>&);
 template void FlowSolver<2>::project_with_grains(const PorousMedium<2>&, const CellField<2>&,

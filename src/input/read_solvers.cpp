@@ -82,9 +82,10 @@ void read_statics(Section& section, SoilOptions& soil, bool water_flows) {
                  "water that flows would meet a soil of false inertia: [[water.body]] excludes it",
                  "With pore_water = \"unified\" it goes: only grains are scaled then.");
   if (section.has("start_in_equilibrium")) {
-    if (water_flows)
+    if (water_flows && !is_unified(soil))
       section.fail("start_in_equilibrium",
-                   "it is sought for soil alone, and the case has flowing water ([[water.body]])");
+                   "it is sought for soil alone, and the case has flowing water ([[water.body]])",
+                   "With pore_water = \"unified\" it goes.");
     soil.start_in_equilibrium = read_equilibrium(section, coefficient);
   }
   if (!section.has("stop_when_static")) return;

@@ -24,8 +24,8 @@ ExitCode run_in(const CaseOptions& options, const RunSettings& settings) {
     archive.finish();
     world.restore();
     resumed_at = world.clock().time();
-  } else if (world.soil()) {
-    world.soil()->find_equilibrium();
+  } else {
+    world.find_equilibrium();
   }
   const InterruptGuard guard;
   Results<D> results(world, settings.results, resumed_at);

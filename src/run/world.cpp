@@ -73,6 +73,17 @@ void World<D>::initialise() {
 }
 
 template <int D>
+void World<D>::find_equilibrium() {
+  if (!soil_ || !soil_->options().start_in_equilibrium) return;
+  if (!unified_) return soil_->find_equilibrium();
+  unified_->find_equilibrium(*flow_, medium_, *soil_);
+  unified_->map_soil_to_grid(*soil_, fixed_, medium_);
+  flow_->initialise(medium_);  // the same water between grains that have moved
+  unified_->initialise(*flow_, medium_.space, *soil_);
+  ledger_ = open_ledger(*this);
+}
+
+template <int D>
 std::vector<std::string> World<D>::warnings() const {
   std::vector<std::string> all = soil_ ? soil_->warnings() : std::vector<std::string>{};
   if (flow_ && flow_->solids().moving())

@@ -23,6 +23,8 @@ class World {
 
   /// The state at time zero. Collective.
   void initialise();
+  /// Starts from rest where the case asks for it; after initialise(). Collective.
+  void find_equilibrium();
   /// Largest outer step that both solvers accept [s]. Collective.
   double stable_step();
   /// One outer step of the paper's flow chart: soil to grid, water, water to soil, soil in small

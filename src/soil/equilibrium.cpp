@@ -29,20 +29,11 @@ void SoilSolver<D>::find_equilibrium() {
     return start_from_rest();
   }
   const EquilibriumStart& start = *options_.start_in_equilibrium;
-  const double damping = options_.damping;
-  const auto water_damping = options_.water_damping;
-  options_.damping = start.damping, options_.water_damping.reset();
-  solids_wait_ = true;
-  for (Solid& solid : solids_) solid.stop();
-  sides_.hold_still(true);
+  const Dampings given = seek_rest();
   Statics statics;
   double elapsed = 0.0;
   do {
-    if (elapsed > start.longest)
-      throw InputError(fmt::format(
-          "soil_solver.start_in_equilibrium: no rest within {:g} s (unbalanced force {:.2g}, "
-          "kinetic energy {:.2g}). Either the soil does not stand, or it needs a larger `longest`.",
-          start.longest, statics.unbalanced_force, statics.kinetic_energy));
+    check_search(elapsed, statics);
     const double dt = stable_step();
     begin_step(0.0, steps_between * dt, nullptr);
     for (int i = 0; i < steps_between; ++i) {
@@ -52,11 +43,38 @@ void SoilSolver<D>::find_equilibrium() {
     elapsed += steps_between * dt;
     statics = *this->statics();
   } while (!statics.at_rest(start.rest));
-  options_.damping = damping, options_.water_damping = water_damping;
+  begin_at_rest(given);
+}
+
+/// Sides, bodies and time stand still while rest is sought.
+template <int D>
+auto SoilSolver<D>::seek_rest() -> Dampings {
+  const Dampings given{options_.damping, options_.water_damping};
+  options_.damping = options_.start_in_equilibrium->damping, options_.water_damping.reset();
+  solids_wait_ = true;
+  for (Solid& solid : solids_) solid.stop();
+  sides_.hold_still(true);
+  return given;
+}
+
+template <int D>
+void SoilSolver<D>::begin_at_rest(const Dampings& given) {
+  options_.damping = given.both, options_.water_damping = given.water;
   solids_wait_ = false;
-  for (Solid& solid : solids_) solid.start(start.reset_displacements);
+  for (Solid& solid : solids_) solid.start(options_.start_in_equilibrium->reset_displacements);
   sides_.hold_still(false);
+  time_ = 0.0;
   start_from_rest();
+}
+
+template <int D>
+void SoilSolver<D>::check_search(double elapsed, const Statics& statics) const {
+  const double longest = options_.start_in_equilibrium->longest;
+  if (elapsed <= longest) return;
+  throw InputError(fmt::format(
+      "soil_solver.start_in_equilibrium: no rest within {:g} s (unbalanced force {:.2g}, "
+      "kinetic energy {:.2g}). Either the soil does not stand, or it needs a larger `longest`.",
+      longest, statics.unbalanced_force, statics.kinetic_energy));
 }
 
 /// Forgets how the points came to rest.
@@ -74,6 +92,12 @@ void SoilSolver<D>::start_from_rest() {
 
 template void SoilSolver<2>::find_equilibrium();
 template void SoilSolver<3>::find_equilibrium();
+template SoilSolver<2>::Dampings SoilSolver<2>::seek_rest();
+template SoilSolver<3>::Dampings SoilSolver<3>::seek_rest();
+template void SoilSolver<2>::begin_at_rest(const Dampings&);
+template void SoilSolver<3>::begin_at_rest(const Dampings&);
+template void SoilSolver<2>::check_search(double, const Statics&) const;
+template void SoilSolver<3>::check_search(double, const Statics&) const;
 template void SoilSolver<2>::start_from_rest();
 template void SoilSolver<3>::start_from_rest();
 

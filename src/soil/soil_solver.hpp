@@ -52,6 +52,18 @@ class SoilSolver {
   /// initialise(); does nothing where the options do not ask for it. Throws InputError on all ranks
   /// when the soil finds no rest. Collective.
   void find_equilibrium();
+  /// The same search where the coupling moves the faces: between the two sides and bodies stand
+  /// still, and the damping is that of the search; after it points start from rest, at time zero.
+  struct Dampings {
+    double both;
+    std::optional<double> water;
+  };
+  Dampings seek_rest();
+  void begin_at_rest(const Dampings& given);
+  /// Throws when the search took longer than it may [s].
+  void check_search(double elapsed, const Statics& statics) const;
+  /// Loads and accelerations stay those of the start while rest is sought.
+  void stop_clock() { time_ = 0.0; }
 
   /// Enters a stage of the run: its settings, soil taken out and placed, displacements from here
   /// on. Collective.

@@ -22,7 +22,7 @@ void SoilSolver<D>::move_with(const FaceVector<D>& velocity, const FaceVector<D>
   mirror_motion(sides_, active_, sums_, motion_);
   if (exchanges_halos(*grid_)) halo_.exchange(as_doubles<NodeMotion, D>(motion_), node_motions);
   update_points(dt);
-  for (Solid& solid : solids_) solid.begin_step(time_, dt, false), solid.move(dt);
+  for (Solid& solid : solids_) solid.begin_step(time_, dt, solids_wait_), solid.move(dt);
   time_ += dt;
   settle_sums();
   redistribute();
@@ -35,7 +35,7 @@ const NodeField<NodeSums, D>& SoilSolver<D>::load_faces(double dt) {
   sides_.update(time_, dt);
   gather_nodes(time_ - 0.5 * dt);  // that of the water, in the middle of the step
   if (solid_contact_) {
-    for (Solid& solid : solids_) solid.begin_step(time_, dt, false);
+    for (Solid& solid : solids_) solid.begin_step(time_, dt, solids_wait_);
     solid_contact_->lean(dt, constants_, active_, solids_, points_, sums_);
   }
   return sums_;
