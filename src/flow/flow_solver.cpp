@@ -360,13 +360,13 @@ void FlowSolver<D>::advance(const PorousMedium<D>& medium, double dt, MovingGrai
   time_ += dt;
 }
 
-/// The water is at the end of the step, the velocity still at its start: gravity and pressure come
-/// later.
+/// The water is at the end of the step. The velocity has just carried it there from the start:
+/// in this scheme (symplectic Euler) it belongs to the middle. Gravity and pressure come later.
 template <int D>
 void FlowSolver<D>::make_waves(double dt) {
   outflow_ -= sum_over_ranks(*grid_, waves_.blend_water(porosity_, time_ + dt, dt, water_));
   ghosts_.update(water_);
-  waves_.blend_velocity(water_, time_, dt, velocity_);
+  waves_.blend_velocity(water_, time_ + 0.5 * dt, dt, velocity_);
 }
 
 /// Sides that water flows through as given: from the present water and a time [s].
