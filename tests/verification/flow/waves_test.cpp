@@ -73,8 +73,8 @@ TEST(Waves, TheBeachTakesASolitaryWaveAway) {
   EXPECT_LT(largest, 0.05 * 0.05);
 }
 
-// Steps as long as these show whether water and velocity in the zone belong to the same time: half a
-// step is 1.8 degrees.
+// Steps as long as these show whether water and velocity in the zone belong to the same time: half
+// a step is 1.8 degrees.
 TEST(Waves, AZoneMakesAWaveWithItsPhaseAlsoWithLongSteps) {
   const double period = 2.0, dt = period / 100.0;
   const RegularWave wave{0.04, period};
@@ -90,7 +90,8 @@ TEST(Waves, AZoneMakesAWaveWithItsPhaseAlsoWithLongSteps) {
     run.step(dt);
     if (step < 400) continue;
     for (std::size_t g = 0; g < 3; ++g)
-      amplitudes[g] += 0.02 * std::polar(1.0, std::numbers::pi * run.time) * level_at(run, places[g]);
+      amplitudes[g] +=
+          0.02 * std::polar(1.0, std::numbers::pi * run.time) * level_at(run, places[g]);
   }
   // Least squares of forth exp(ikx) + back exp(-ikx).
   std::complex<double> cross = 0.0, first = 0.0, second = 0.0;
