@@ -62,14 +62,17 @@ TEST(Waves, ASolitaryWaveKeepsItsHeightAndSpeed) {
   EXPECT_NEAR(water.present, water.initial - water.outflow, 1e-12 * water.initial);
 }
 
+// The crest starts 6 m before the flume, so all of the wave comes in: one that starts half in the
+// maker is followed by short waves of up to 5 %, which are none of the beach's.
 TEST(Waves, TheBeachTakesASolitaryWaveAway) {
-  const SolitaryWave wave{0.05, 0.0};
+  const SolitaryWave wave{0.05, -6.0};
   FlowRun<2> run(Flume<2>::domain(), Flume<2>::options(wave, 4.0));
   const double speed = make_wave(wave, {.depth = 0.5})->celerity();
-  while (run.time < 22.0 / speed) run.step(std::min(0.01, run.flow.stable_step(run.medium)));
-  double largest = 0.0;  // the wave would be on its way back, between 10 and 6 m
-  for (double x = 4.05; x < 12.0; x += 0.1) largest = std::max(largest, std::abs(level_at(run, x)));
-  std::printf("reflected: %.2f %% of the wave\n", 100.0 * largest / 0.05);
+  while (run.time < 28.0 / speed) run.step(std::min(0.01, run.flow.stable_step(run.medium)));
+  double largest = 0.0, where = 0.0;  // the wave would be on its way back, between 10 and 6 m
+  for (double x = 4.05; x < 12.0; x += 0.1)
+    if (std::abs(level_at(run, x)) > largest) largest = std::abs(level_at(run, x)), where = x;
+  std::printf("reflected: %.2f %% of the wave, at %.2f m\n", 100.0 * largest / 0.05, where);
   EXPECT_LT(largest, 0.05 * 0.05);
 }
 
