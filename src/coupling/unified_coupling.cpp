@@ -222,6 +222,8 @@ void UnifiedCoupling<D>::initialise(const FlowSolver<D>& flow, const Space<D>& s
                                     SoilSolver<D>& soil) {
   note_pore_pressure(flow, soil);
   load_grains(flow, space, soil, 1.0);
+  for (Solid& solid : soil.solids())
+    if (solid.free()) solid.start(false);  // that was no step
   change_.fill(0.0);
   last_step_ = 0.0;
 }

@@ -22,6 +22,24 @@ void FlowSolver<D>::move_solids(PorousMedium<D>& medium, double dt) {
   solids_.fill(medium);
 }
 
+template <int D>
+void FlowSolver<D>::push_solids(std::vector<Solid>& leaders, double dt) const {
+  for (Solid& leader : leaders) {
+    if (!leader.free()) continue;
+    // Where the body will be: else what drives a floating body back comes a step late, and its
+    // heave would grow (Euler's explicit method).
+    const SolidLoad load = solid_load_ahead(*solids_.find(leader.options().name), dt);
+    leader.feel_water(load.force, load.moment, dt);
+  }
+}
+
+template <int D>
+void FlowSolver<D>::drive_solids(double dt) {
+  for (Solid& solid : solids_.free()) solid.begin_step(time_, dt, false);
+  push_solids(solids_.free(), dt);
+  solids_.follow(solids_.free());
+}
+
 /// Cells that bodies make or take change hands; those without a pressure unknown take the room that
 /// is there, or what their water needs until the pressure can push it out.
 template <int D>
@@ -64,17 +82,28 @@ SolidLoad FlowSolver<D>::solid_load(std::size_t body, const std::optional<BoxSha
   return load_on(*grid_, solids_, body, part, wall_pressure(), velocity_, options_.viscosity);
 }
 
+template <int D>
+SolidLoad FlowSolver<D>::solid_load_ahead(std::size_t body, double time) const {
+  return load_on(*grid_, solids_, body, {}, wall_pressure(), velocity_, options_.viscosity, time);
+}
+
 template WallPressure<2> FlowSolver<2>::wall_pressure() const;
 template void FlowSolver<2>::restore(PorousMedium<2>&);
 template void FlowSolver<2>::move_solids(PorousMedium<2>&, double);
 template void FlowSolver<2>::follow_solids(const PorousMedium<2>&);
+template void FlowSolver<2>::push_solids(std::vector<Solid>&, double) const;
+template void FlowSolver<2>::drive_solids(double);
 template double FlowSolver<2>::pressure_at(const Vec<2>&) const;
 template SolidLoad FlowSolver<2>::solid_load(std::size_t, const std::optional<BoxShape>&) const;
+template SolidLoad FlowSolver<2>::solid_load_ahead(std::size_t, double) const;
 template WallPressure<3> FlowSolver<3>::wall_pressure() const;
 template void FlowSolver<3>::restore(PorousMedium<3>&);
 template void FlowSolver<3>::move_solids(PorousMedium<3>&, double);
 template void FlowSolver<3>::follow_solids(const PorousMedium<3>&);
+template void FlowSolver<3>::push_solids(std::vector<Solid>&, double) const;
+template void FlowSolver<3>::drive_solids(double);
 template double FlowSolver<3>::pressure_at(const Vec<3>&) const;
 template SolidLoad FlowSolver<3>::solid_load(std::size_t, const std::optional<BoxShape>&) const;
+template SolidLoad FlowSolver<3>::solid_load_ahead(std::size_t, double) const;
 
 }  // namespace mudlark

@@ -48,7 +48,7 @@ FlowSolver<D>::FlowSolver(const Grid<D>& grid, const FlowOptions& options)
       waves_(grid, options.waves),
       sides_(grid, options.sides, options.density),
       sources_(grid, options.wave_sources),
-      solids_(grid, options.solids),
+      solids_(grid, options.solids, options.density),
       water_(grid, "water fraction", "1"),
       porosity_(grid, "porosity", "1", 1.0),
       pressure_(grid, "pressure", "Pa"),

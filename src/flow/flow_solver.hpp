@@ -61,6 +61,13 @@ class FlowSolver {
   void restore(PorousMedium<D>& medium);
   /// Moves bodies over the coming step, and the room in the medium with them.
   void move_solids(PorousMedium<D>& medium, double dt);
+  /// After a step of dt [s]: free bodies take the velocity that water, weight and given forces give
+  /// them for the next.
+  void drive_solids(double dt);
+  /// Free bodies are driven by others with their names: what those have of the water's load over
+  /// the last step of dt [s], and their velocity for the next one.
+  void push_solids(std::vector<Solid>& leaders, double dt) const;
+  void follow_leaders(const std::vector<Solid>& leaders) { solids_.follow(leaders); }
 
   /// Largest step that keeps the transport bounded, the viscosity stable and surface waves resolved
   /// [s] (NUMERICS B2, B5). The same on all ranks.
@@ -105,6 +112,8 @@ class FlowSolver {
   const SolidBodies<D>& solids() const { return solids_; }
   /// Of the water on a body about its centre, or on the part of its surface in a box. Collective.
   SolidLoad solid_load(std::size_t body, const std::optional<BoxShape>& part) const;
+  /// The same a time [s] later, if the water stood still meanwhile. Collective.
+  SolidLoad solid_load_ahead(std::size_t body, double time) const;
   const SolveReport& last_solve() const { return last_solve_; }
 
   /// What the present pressure does to grains that share it: acceleration of a unit mass per unit

@@ -10,7 +10,7 @@
 #include "base/varying.hpp"
 #include "flow/flow_sides.hpp"
 #include "flow/wave_source.hpp"
-#include "grid/rigid_pose.hpp"
+#include "grid/solid_options.hpp"
 
 namespace mudlark {
 
@@ -42,7 +42,7 @@ struct FlowSolid {
   std::string name;
   Shape shape;                   ///< where it is at time zero
   std::optional<Point3> centre;  ///< what it turns about [m]
-  std::variant<FixedSolid, PrescribedSolid> motion{};
+  std::variant<FixedSolid, PrescribedSolid, FreeSolid> motion{};
   bool no_slip = false;  ///< else water slips along its surface
 };
 

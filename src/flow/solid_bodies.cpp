@@ -18,6 +18,16 @@ namespace {
 /// step to all others.
 constexpr double smallest_volume = 0.1;
 
+template <int D>
+BoxShape box_of(const Grid<D>& grid) {
+  BoxShape domain{{-1e300, -1e300, -1e300}, {1e300, 1e300, 1e300}};
+  for (int a = 0; a < D; ++a) {
+    const auto u = static_cast<std::size_t>(axis_in_space<D>(a));
+    domain.lower[u] = grid.lower()[a], domain.upper[u] = grid.upper()[a];
+  }
+  return domain;
+}
+
 RigidPose start_pose(const FlowSolid& solid, int dimension) {
   if (solid.centre) return {solid.shape, *solid.centre, dimension};
   const auto volume = volume_of(solid.shape, dimension);
@@ -27,10 +37,12 @@ RigidPose start_pose(const FlowSolid& solid, int dimension) {
 }  // namespace
 
 template <int D>
-SolidBodies<D>::SolidBodies(const Grid<D>& grid, const std::vector<FlowSolid>& options)
+SolidBodies<D>::SolidBodies(const Grid<D>& grid, const std::vector<FlowSolid>& options,
+                            double density)
     : grid_(&grid),
       options_(options),
       velocities_(options.size()),
+      next_(options.size()),
       open_(grid),
       cut_(grid),
       walls_(grid),
@@ -38,8 +50,23 @@ SolidBodies<D>::SolidBodies(const Grid<D>& grid, const std::vector<FlowSolid>& o
   for (const FlowSolid& solid : options) {
     poses_.push_back(start_pose(solid, D));
     no_slip_ = no_slip_ || solid.no_slip;
-    moving_ = moving_ || std::holds_alternative<PrescribedSolid>(solid.motion);
+    moving_ = moving_ || !std::holds_alternative<FixedSolid>(solid.motion);
+    const auto* motion = std::get_if<FreeSolid>(&solid.motion);
+    if (!motion) continue;
+    free_.emplace_back(SolidOptions{solid.name, solid.shape, solid.centre, *motion}, D,
+                       to_point3(grid.gravity()), 1.0);
+    free_.back().put_in_water(density, box_of(grid));
   }
+  follow(free_);
+  velocities_ = next_;
+}
+
+template <int D>
+void SolidBodies<D>::follow(const std::vector<Solid>& leaders) {
+  for (const Solid& leader : leaders)
+    if (const auto body = find(leader.options().name); body && leader.free())
+      next_[*body] = {leader.velocity(), leader.spin()};
+  if (&leaders != &free_) free_.clear();
 }
 
 template <int D>
@@ -52,26 +79,24 @@ std::optional<std::size_t> SolidBodies<D>::find(const std::string& name) const {
 template <int D>
 void SolidBodies<D>::move(double time, double dt) {
   for (std::size_t b = 0; b < poses_.size(); ++b) {
-    const auto* given = std::get_if<PrescribedSolid>(&options_[b].motion);
-    if (!given) continue;
-    velocities_[b] = poses_[b].prescribed(*given, time, dt);
+    if (const auto* given = std::get_if<PrescribedSolid>(&options_[b].motion))
+      next_[b] = velocities_[b] = poses_[b].prescribed(*given, time, dt);
     poses_[b].move(velocities_[b], dt);
+    velocities_[b] = next_[b];
   }
+  for (Solid& solid : free_) solid.move(dt);
 }
 
 template <int D>
 double SolidBodies<D>::limited_step(double time, double step) const {
-  BoxShape domain{{-1e300, -1e300, -1e300}, {1e300, 1e300, 1e300}};
-  for (int a = 0; a < D; ++a) {
-    const auto u = static_cast<std::size_t>(axis_in_space<D>(a));
-    domain.lower[u] = grid_->lower()[a], domain.upper[u] = grid_->upper()[a];
-  }
+  const BoxShape domain = box_of(*grid_);
   const double farthest = 0.25 * grid_->smallest_spacing();
   for (std::size_t b = 0; b < poses_.size(); ++b) {
+    if (std::holds_alternative<FixedSolid>(options_[b].motion)) continue;
     const auto* given = std::get_if<PrescribedSolid>(&options_[b].motion);
-    if (!given) continue;
     for (int pass = 0; pass < 2; ++pass) {  // its speed over the shorter step may be another
-      const RigidVelocity motion = poses_[b].prescribed(*given, time, step);
+      const RigidVelocity motion =
+          given ? poses_[b].prescribed(*given, time, step) : velocities_[b];
       const double turning =
           motion.spin.squaredNorm() > 0.0 ? motion.spin.norm() * poses_[b].reach(domain) : 0.0;
       const double way = (motion.velocity.norm() + turning) * step;

@@ -6,6 +6,7 @@
 #include "flow/options.hpp"
 #include "flow/porous_medium.hpp"
 #include "grid/cut_cells.hpp"
+#include "grid/solid.hpp"
 #include "numerics/wall_band.hpp"
 
 namespace mudlark {
@@ -19,7 +20,8 @@ struct JoinedCell {
 template <int D>
 class SolidBodies {
  public:
-  SolidBodies(const Grid<D>& grid, const std::vector<FlowSolid>& options);
+  /// In water of a density [kg/m3].
+  SolidBodies(const Grid<D>& grid, const std::vector<FlowSolid>& options, double density);
 
   bool empty() const { return options_.empty(); }
   bool moving() const { return moving_; }
@@ -31,11 +33,18 @@ class SolidBodies {
   const FlowSolid& options(std::size_t body) const { return options_[body]; }
   const RigidPose& pose(std::size_t body) const { return poses_[body]; }
   const RigidVelocity& velocity(std::size_t body) const { return velocities_[body]; }
+  /// Of a place on a body [m/s].
+  Vec<D> velocity_at(std::size_t body, const Vec<D>& place) const;
   /// The body of that name, if there is one.
   std::optional<std::size_t> find(const std::string& name) const;
 
-  /// Moves the bodies over a step [s].
+  /// Moves the bodies over a step [s]; free ones with the velocity that the water's flux has at its
+  /// start, so it makes the room that they take; then they have that of follow().
   void move(double time, double dt);
+  /// Free bodies take the velocity of others with their names, and leave it to them from then on.
+  void follow(const std::vector<Solid>& leaders);
+  /// Free bodies that nothing else drives.
+  std::vector<Solid>& free() { return free_; }
   /// Room that the bodies leave where they are now, and the volume flux of those that move.
   void fill(PorousMedium<D>& medium);
 
@@ -58,8 +67,11 @@ class SolidBodies {
       for (int i = 0; i < 3; ++i) {
         a.number(at + "velocity " + std::to_string(i), velocities_[b].velocity[i]);
         a.number(at + "spin " + std::to_string(i), velocities_[b].spin[i]);
+        a.number(at + "next velocity " + std::to_string(i), next_[b].velocity[i]);
+        a.number(at + "next spin " + std::to_string(i), next_[b].spin[i]);
       }
     }
+    for (Solid& solid : free_) solid.archive(a);
   }
 
  private:
@@ -72,12 +84,13 @@ class SolidBodies {
   void hand_on_flux(const JoinedCell<D>& joined, FaceVector<D>& flux) const;
   void check_shut_in(const Space<D>& space, CellField<D>& capacity,
                      const CellField<D>& water) const;
-  Vec<D> velocity_at(std::size_t body, const Vec<D>& place) const;
 
   const Grid<D>* grid_;
   std::vector<FlowSolid> options_;
   std::vector<RigidPose> poses_;
   std::vector<RigidVelocity> velocities_;
+  std::vector<RigidVelocity> next_;  ///< of free bodies, for the water's flux of the coming step
+  std::vector<Solid> free_;
   bool moving_ = false, no_slip_ = false;
   Space<D> open_;  ///< without bodies
   CutCells<D> cut_;

@@ -51,6 +51,12 @@ double WallPressure<D>::at(const Index<D>& cell, const Vec<D>& place) const {
 }
 
 template <int D>
+Vec<D> WallPressure<D>::slope(const Index<D>& cell) const {
+  const auto from = source(cell);
+  return from ? gradient(*from) : Vec<D>{};
+}
+
+template <int D>
 double WallPressure<D>::mean(const Index<D>& cell, const Vec<D>& place, double height) const {
   constexpr double dry = 1e-6, full = 1.0 - 1e-6;
   const double alpha = (*saturation_)[cell];
@@ -75,6 +81,30 @@ double stress_per_speed(const Grid<D>& grid, const CutCell<D>& cut, double visco
   return viscosity / std::max(away, 0.25 * grid.smallest_spacing());
 }
 
+/// Integral of the way from the middle across the normal: what uniform pressure on the two sides of
+/// an edge turns with.
+template <int D>
+Eigen::Vector3d turning(const CutCell<D>& cut) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (int a = 0; a < D; ++a)
+    sum += to_space<D>(cut.spread[static_cast<std::size_t>(a)])
+               .cross(Eigen::Vector3d::Unit(axis_in_space<D>(a)));
+  return sum;
+}
+
+/// Height of a cell's wall: its area seen from the side over its width.
+template <int D>
+double wall_height(const Grid<D>& grid, const CutCell<D>& cut) {
+  constexpr int up = D - 1;
+  double height2 = 0.0;
+  for (int a = 0; a < up; ++a) {
+    double width = 1.0;
+    for (int b = 0; b < up; ++b) width *= b == a ? 1.0 : grid.width(b, cut.cell[b]);
+    height2 += (cut.area[a] / width) * (cut.area[a] / width);
+  }
+  return std::min(grid.width(up, cut.cell[up]), std::sqrt(height2));
+}
+
 }  // namespace
 
 template <int D>
@@ -95,30 +125,30 @@ void find_body_friction(const Grid<D>& grid, const SolidBodies<D>& solids,
 template <int D>
 SolidLoad load_on(const Grid<D>& grid, const SolidBodies<D>& solids, std::size_t body,
                   const std::optional<BoxShape>& part, const WallPressure<D>& pressure,
-                  const FaceVector<D>& velocity, double viscosity) {
-  constexpr int up = D - 1;
+                  const FaceVector<D>& velocity, double viscosity, double ahead) {
+  const Eigen::Vector3d centre =
+      solids.pose(body).centre() + ahead * solids.velocity(body).velocity;
   SolidLoad load;
   for (const CutCell<D>& cut : solids.surface()) {
     if (cut.body != body) continue;
     const Point3 place = to_point3(cut.middle);
     if (part && !Shape{*part}.contains(place)) continue;
-    double height2 = 0.0;  // of the wall in the cell: area seen from the side over its width
-    for (int a = 0; a < up; ++a) {
-      double width = 1.0;
-      for (int b = 0; b < up; ++b) width *= b == a ? 1.0 : grid.width(b, cut.cell[b]);
-      height2 += (cut.area[a] / width) * (cut.area[a] / width);
-    }
-    const double height = std::min(grid.width(up, cut.cell[up]), std::sqrt(height2));
-    const double p = pressure.mean(cut.cell, cut.middle, height);
-    Vec<D> total = (-p) * cut.area;
+    const Vec<D> middle = cut.middle + ahead * solids.velocity_at(body, cut.middle);
+    const Eigen::Vector3d area = to_space<D>(cut.area);
+    const double p = pressure.mean(cut.cell, middle, wall_height(grid, cut));
+    Vec<D> total = (-p) * to_axes<D>(area + ahead * solids.velocity(body).spin.cross(area));
     if (solids.options(body).no_slip && pressure.wet(cut.cell)) {
       const double drag = stress_per_speed(grid, cut, viscosity) * norm(cut.area);
       for (int a = 0; a < D; ++a)
         total[a] += 0.5 * drag * (velocity[a][cut.cell] + velocity[a][cut.cell.shifted(a, 1)]);
     }
+    if (p == pressure.at(cut.cell, middle)) {  // no surface of the water in the cell
+      const Vec<D> slope = pressure.slope(cut.cell);
+      for (int a = 0; a < D; ++a) total[a] -= dot(slope, cut.spread[static_cast<std::size_t>(a)]);
+    }
     const Eigen::Vector3d force = to_space<D>(total);
     load.force += force;
-    load.moment += (to_space<D>(cut.middle) - solids.pose(body).centre()).cross(force);
+    load.moment += (to_space<D>(middle) - centre).cross(force) - p * turning(cut);
   }
   for (int a = 0; a < 3; ++a) {
     load.force[a] = sum_over_ranks(grid, load.force[a]);
@@ -131,12 +161,12 @@ template class WallPressure<2>;
 template class WallPressure<3>;
 template SolidLoad load_on(const Grid<2>&, const SolidBodies<2>&, std::size_t,
                            const std::optional<BoxShape>&, const WallPressure<2>&,
-                           const FaceVector<2>&, double);
+                           const FaceVector<2>&, double, double);
 template void find_body_friction(const Grid<2>&, const SolidBodies<2>&, const CellField<2>&, double,
                                  FaceVector<2>&);
 template SolidLoad load_on(const Grid<3>&, const SolidBodies<3>&, std::size_t,
                            const std::optional<BoxShape>&, const WallPressure<3>&,
-                           const FaceVector<3>&, double);
+                           const FaceVector<3>&, double, double);
 template void find_body_friction(const Grid<3>&, const SolidBodies<3>&, const CellField<3>&, double,
                                  FaceVector<3>&);
 

@@ -28,6 +28,8 @@ class WallPressure {
 
   /// Gradient in a cell with a pressure, from those neighbours that have one [Pa/m].
   Vec<D> gradient(const Index<D>& cell) const;
+  /// That gradient where at() takes the pressure from [Pa/m].
+  Vec<D> slope(const Index<D>& cell) const;
   /// Linear from the cell's centre [Pa]; a cell without a pressure takes it from the nearest
   /// neighbour that has one; without any it is zero.
   double at(const Index<D>& cell, const Vec<D>& place) const;
@@ -47,11 +49,12 @@ class WallPressure {
 };
 
 /// Sum over the cells of a body's surface of -p n, and of the shear on no-slip bodies; those whose
-/// middle lies in `part`. `viscosity` is dynamic [Pa s]. Collective.
+/// middle lies in `part`. `viscosity` is dynamic [Pa s]. With `ahead` [s] the body is where it will
+/// be then, in the present water. Collective.
 template <int D>
 SolidLoad load_on(const Grid<D>& grid, const SolidBodies<D>& solids, std::size_t body,
                   const std::optional<BoxShape>& part, const WallPressure<D>& pressure,
-                  const FaceVector<D>& velocity, double viscosity);
+                  const FaceVector<D>& velocity, double viscosity, double ahead = 0.0);
 
 /// Adds the resistance of no-slip bodies per volume of water [Pa s/m2]: a linear profile between
 /// the wall and the centre of the cut cell. `capacity` of cells.

@@ -243,6 +243,41 @@ double CutCells<D>::share_of_face(int axis, const Index<D>& face) const {
   }
 }
 
+/// Centre of a face's open share, geometrically.
+template <int D>
+Vec<D> CutCells<D>::open_centre(int axis, const Index<D>& face) const {
+  const int first = (axis + 1) % D;
+  const auto corner = [&](const Index<D>& index) {
+    Index<D> twice;
+    for (int a = 0; a < D; ++a) twice[a] = 2 * index[a];
+    Vec<D> place;
+    for (int a = 0; a < D; ++a) place[a] = place_of(a, twice[a]);
+    return place;
+  };
+  CutPiece<D> open;
+  if constexpr (D == 2) {
+    const Index<D> other = face.shifted(first, 1);
+    open = positive_part<D, 2>({corner(face), corner(other)},
+                               {distance_[node(face)], distance_[node(other)]});
+  } else {
+    const int second = (axis + 2) % D;
+    const std::array<Index<D>, 4> ring{face, face.shifted(first, 1),
+                                       face.shifted(first, 1).shifted(second, 1),
+                                       face.shifted(second, 1)};
+    double mean = 0.0;
+    for (const Index<D>& index : ring) mean += 0.25 * distance_[node(index)];
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Index<D>&one = ring[k], &next = ring[(k + 1) % 4];
+      const CutPiece<D> part =
+          positive_part<D, 3>({grid_->face_centre(axis, face), corner(one), corner(next)},
+                              {nonzero(mean), distance_[node(one)], distance_[node(next)]});
+      open.size += part.size;
+      open.moment += part.moment;
+    }
+  }
+  return open.size > 0.0 ? (1.0 / open.size) * open.moment : grid_->face_centre(axis, face);
+}
+
 /// Faces beside cells without volume are closed: nothing can pass.
 template <int D>
 void CutCells<D>::close_faces() {
@@ -263,7 +298,7 @@ void CutCells<D>::close_faces() {
 template <int D>
 void CutCells<D>::add_surface(const std::vector<RigidPose>& bodies, const Index<D>& cell) {
   const Grid<D>& grid = *grid_;
-  CutCell<D> found{cell, 0, {}, {}};
+  CutCell<D> found{cell, 0, {}, {}, {}};
   CutPiece<D> sum;
   double volume = 1.0;
   for (int a = 0; a < D; ++a) volume *= grid.width(a, cell[a]);
@@ -274,9 +309,11 @@ void CutCells<D>::add_surface(const std::vector<RigidPose>& bodies, const Index<
     found.area[axis] = (aperture_[axis][upper] - aperture_[axis][cell]) * size;
     for (const Index<D>& face : {cell, upper}) {
       const double closed = (geometric_[axis][face] - aperture_[axis][face]) * size;
+      const Vec<D> moment = closed > 0.0 ? closed * open_centre(axis, face) : Vec<D>{};
       any = any || aperture_[axis][face] < 1.0;
       sum.size += closed;
-      sum.moment += closed * grid.face_centre(axis, face);
+      sum.moment += moment;
+      found.spread[static_cast<std::size_t>(axis)] += (face == cell ? 1.0 : -1.0) * moment;
     }
   }
   if (!any) return;
@@ -284,9 +321,15 @@ void CutCells<D>::add_surface(const std::vector<RigidPose>& bodies, const Index<
     const CutPiece<D> piece = cut_piece(simplex);
     sum.size += piece.size;
     sum.moment += piece.moment;
+    if (piece.size == 0.0) return;
+    for (int axis = 0; axis < D; ++axis)
+      found.spread[static_cast<std::size_t>(axis)] +=
+          (piece.area[axis] / piece.size) * piece.moment;
   });
   if (!(sum.size > 0.0)) return;
   found.middle = (1.0 / sum.size) * sum.moment;
+  for (int axis = 0; axis < D; ++axis)
+    found.spread[static_cast<std::size_t>(axis)] += (-found.area[axis]) * found.middle;
   nearest(bodies, to_point3(found.middle), 2.0 * diagonal_, found.body);
   if (found.body < bodies.size()) surface_.push_back(found);
 }

@@ -20,6 +20,9 @@ struct CutCell {
   std::size_t body = 0;  ///< the nearest one
   Vec<D> area;           ///< integral of the normal out of the body [m^(D-1)]
   Vec<D> middle;         ///< centre of the surface [m]
+  /// Per component of the normal: integral of it times the way from the middle [m^D]. Zero on a
+  /// plane; where an edge lies in the cell, each of its sides has a centre of its own.
+  std::array<Vec<D>, D> spread{};
 };
 
 template <int D>
@@ -49,6 +52,7 @@ class CutCells {
   double nonzero(double distance) const;
   void cut(const Index<D>& cell);
   double share_of_face(int axis, const Index<D>& face) const;
+  Vec<D> open_centre(int axis, const Index<D>& face) const;
   void close_faces();
   void add_surface(const std::vector<RigidPose>& bodies, const Index<D>& cell);
   template <class Take>

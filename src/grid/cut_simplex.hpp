@@ -1,5 +1,6 @@
 #pragma once
 /// Triangles and tetrahedra that a linear function cuts in a positive and a negative part.
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -14,11 +15,11 @@ struct Simplex {
   std::array<double, D + 1> value;
 };
 
-/// Length or area of the cut, and that times its centre.
+/// Length or area of the cut, that times its centre, and its vector towards the positive side.
 template <int D>
 struct CutPiece {
   double size = 0.0;
-  Vec<D> moment{};
+  Vec<D> moment{}, area{};
 };
 
 /// Share of a segment, triangle or tetrahedron on which the linear function with these values at
@@ -50,6 +51,34 @@ double positive_share(std::array<double, N> value) {
   return a0 * a1 + a0 * b1 * (1.0 - a1) + b0 * b1 * (1.0 - a0);
 }
 
+/// Centre of the part of a segment (N = 2) or triangle (N = 3) on which the linear function is
+/// positive, times its size.
+template <int D, std::size_t N>
+CutPiece<D> positive_part(const std::array<Vec<D>, N>& place, const std::array<double, N>& value) {
+  std::array<Vec<D>, N + 1> corner;
+  std::size_t corners = 0;
+  for (std::size_t i = 0; i < N; ++i) {
+    const std::size_t j = (i + 1) % N;
+    if (value[i] > 0.0 && corners < corner.size()) corner[corners++] = place[i];
+    if ((value[i] > 0.0) == (value[j] > 0.0) || corners == corner.size()) continue;
+    corner[corners++] = place[i] + value[i] / (value[i] - value[j]) * (place[j] - place[i]);
+  }
+  CutPiece<D> part;
+  for (std::size_t k = N - 1; k < corners; ++k) {
+    Vec<D> sum = corner[0] + corner[k];
+    double size = norm(corner[k] - corner[0]);
+    if constexpr (N == 3) {
+      const Vec<D> a = corner[k - 1] - corner[0], b = corner[k] - corner[0];
+      size = 0.5 * std::sqrt(std::max(0.0, dot(a, a) * dot(b, b) - dot(a, b) * dot(a, b)));
+      sum += corner[k - 1];
+    }
+    part.size += size;
+    part.moment += size / static_cast<double>(N) * sum;
+    if constexpr (N == 2) break;  // both ends list the crossing
+  }
+  return part;
+}
+
 template <int D>
 CutPiece<D> cut_piece(const Simplex<D>& simplex) {
   std::array<Vec<D>, 4> corner;
@@ -73,6 +102,7 @@ CutPiece<D> cut_piece(const Simplex<D>& simplex) {
     if (corners < 2) return piece;
     piece.size = norm(corner[1] - corner[0]);
     piece.moment = piece.size * (0.5 * (corner[0] + corner[1]));
+    piece.area = {{corner[0][1] - corner[1][1], corner[1][0] - corner[0][0]}};
   } else {
     for (std::size_t k = 2; k < corners; ++k) {
       const Vec<D> a = corner[k - 1] - corner[0], b = corner[k] - corner[0];
@@ -81,8 +111,14 @@ CutPiece<D> cut_piece(const Simplex<D>& simplex) {
       const double area = 0.5 * norm(cross);
       piece.size += area;
       piece.moment += area / 3.0 * (corner[0] + corner[k - 1] + corner[k]);
+      piece.area += 0.5 * cross;
     }
   }
+  for (std::size_t i = 0; i <= D; ++i)
+    if (simplex.value[i] > 0.0) {
+      if (dot(piece.area, simplex.place[i] - corner[0]) < 0.0) piece.area *= -1.0;
+      break;
+    }
   return piece;
 }
 

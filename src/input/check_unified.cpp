@@ -64,6 +64,11 @@ std::vector<std::string> excluded(const CaseOptions& options) {
   no(soil.kernel == Kernel::linear, "soil_solver.kernel = \"linear\"");
   no(soil.body_acceleration.has_value(),
      "soil_solver.body_acceleration, as that of [flow_solver] moves grains and water,");
+  const bool free = std::any_of(soil.solids.begin(), soil.solids.end(), [](const auto& solid) {
+    return std::holds_alternative<FreeSolid>(solid.motion);
+  });
+  no(free && soil.start_in_equilibrium,
+     "soil_solver.start_in_equilibrium under a [[solid]] that moves freely");
   return words;
 }
 

@@ -186,17 +186,12 @@ SolidOptions read_solid(Section& section, bool in_soil, std::vector<std::string>
 /// The same body as the water sees it.
 FlowSolid read_flow_solid(Section& section, const SolidOptions& solid, const FlowOptions& flow,
                           bool in_soil) {
-  const bool moves_as_given = std::holds_alternative<PrescribedSolid>(solid.motion);
+  const bool moves = !std::holds_alternative<FixedSolid>(solid.motion);
   FlowSolid body{solid.name, solid.shape, solid.centre, {}, false};
-  if (const auto* given = std::get_if<PrescribedSolid>(&solid.motion)) body.motion = *given;
-  if (std::holds_alternative<FreeSolid>(solid.motion))
-    section.fail("motion",
-                 "a body in flowing water is fixed or moves as given; the water cannot "
-                 "move it yet",
-                 "Write \"fixed\" or { type = \"prescribed\", ... }.");
-  if (moves_as_given && flow.porous.size() > 0)
+  std::visit([&](const auto& motion) { body.motion = motion; }, solid.motion);
+  if (moves && flow.porous.size() > 0)
     section.fail("motion", "a body that moves in a case with [[porous]] ground is not there yet",
-                 "Write \"fixed\", or leave the ground out.");
+                 "Write \"fixed\", or make the ground [[soil]] (coupling.mode = \"unified\").");
   for (const char* key : {"friction_coefficient", "adhesion"})
     if (!in_soil) section.forbid(key, "it is for soil; `wall` says how water passes the body");
   body.no_slip = section.choice<bool>("wall", {{"slip", false}, {"no-slip", true}}, false);

@@ -54,6 +54,8 @@ World<D>::World(const CaseOptions& options, MPI_Comm comm)
   }
   if (flow_ && soil_ && options.coupling.mode == CouplingMode::unified) {
     unified_.emplace(grid_, *soil_, options.coupling.grain_share);
+    soil_->put_solids_in_water(options.flow->density);
+    flow_->follow_leaders(soil_->solids());
     if (const double bulk = options.soil->water_bulk_modulus; std::isfinite(bulk))
       flow_->let_water_give_way(1.0 / bulk);
   }
@@ -88,9 +90,10 @@ std::vector<std::string> World<D>::warnings() const {
   std::vector<std::string> all = soil_ ? soil_->warnings() : std::vector<std::string>{};
   if (flow_ && flow_->solids().moving())
     all.emplace_back(
-        "a [[solid]] moves through water. Pistons that stay in it have been checked; bodies that "
-        "enter or leave through the surface have forces that cannot be trusted, and may end the "
-        "run (docs/methods/bodies-in-water.md).");
+        "a [[solid]] moves through water. Pistons that stay in it, bodies under water and small "
+        "heave through the surface have been checked; bodies that enter or leave through the "
+        "surface have forces that cannot be trusted, and may end the run "
+        "(docs/methods/bodies-in-water.md).");
   return all;
 }
 
@@ -173,6 +176,7 @@ void World<D>::advance_flow(double dt) {
     const Stopwatch watch(effort_.flow);
     flow_->move_solids(medium_, dt);
     flow_->advance(medium_, dt);
+    flow_->drive_solids(dt);
     meters_.read(*flow_, dt);
   }
   if (!coupling_) return;
@@ -202,7 +206,9 @@ void World<D>::advance_together(double dt) {
   }
   const Stopwatch watch(effort_.flow);
   flow_->advance(medium_, dt, &unified_->grains());
+  flow_->push_solids(soil_->solids(), dt);
   unified_->follow_water(*flow_, *soil_, dt);
+  flow_->follow_leaders(soil_->solids());
   meters_.read(*flow_, dt);
   effort_.soil_steps += 1;
   effort_.largest_soil_step = std::max(effort_.largest_soil_step, dt);

@@ -10,9 +10,9 @@
 #include "base/varying.hpp"
 #include "base/vec.hpp"
 #include "grid/shape.hpp"
+#include "grid/solid_options.hpp"
 #include "materials/options.hpp"
 #include "soil/side_options.hpp"
-#include "soil/solid_options.hpp"
 
 namespace mudlark {
 

@@ -115,6 +115,9 @@ class SoilSolver {
   std::vector<std::string> warnings() const;
   /// Rigid bodies, the same on all ranks.
   const std::vector<Solid>& solids() const { return solids_; }
+  std::vector<Solid>& solids() { return solids_; }
+  /// Water of a density [kg/m3] flows around them: before the first step.
+  void put_solids_in_water(double density);
   /// Cells around the soil, with the reach of the kernels; within this rank's local box.
   const IndexBox<D>& active() const { return active_; }
 

@@ -3,11 +3,11 @@
 #include <vector>
 
 #include "grid/halo.hpp"
+#include "grid/solid.hpp"
 #include "soil/nodes.hpp"
 #include "soil/options.hpp"
 #include "soil/particles.hpp"
 #include "soil/sides.hpp"
-#include "soil/solid.hpp"
 #include "soil/transfer.hpp"
 
 namespace mudlark {

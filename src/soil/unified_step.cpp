@@ -22,7 +22,11 @@ void SoilSolver<D>::move_with(const FaceVector<D>& velocity, const FaceVector<D>
   mirror_motion(sides_, active_, sums_, motion_);
   if (exchanges_halos(*grid_)) halo_.exchange(as_doubles<NodeMotion, D>(motion_), node_motions);
   update_points(dt);
-  for (Solid& solid : solids_) solid.begin_step(time_, dt, solids_wait_), solid.move(dt);
+  for (Solid& solid : solids_) {
+    if (!solid.free())
+      solid.begin_step(time_, dt, solids_wait_);  // free ones wait for the water's load
+    solid.move(dt);
+  }
   time_ += dt;
   settle_sums();
   redistribute();
@@ -39,6 +43,12 @@ const NodeField<NodeSums, D>& SoilSolver<D>::load_faces(double dt) {
     solid_contact_->lean(dt, constants_, active_, solids_, points_, sums_);
   }
   return sums_;
+}
+
+template <int D>
+void SoilSolver<D>::put_solids_in_water(double density) {
+  const BoxShape domain{to_point3(grid_->lower()), to_point3(grid_->upper())};
+  for (Solid& solid : solids_) solid.put_in_water(density, domain);
 }
 
 template <int D>
@@ -87,6 +97,8 @@ template void SoilSolver<2>::suction(CellField<2>&);
 template void SoilSolver<3>::suction(CellField<3>&);
 template void SoilSolver<2>::move_with(const FaceVector<2>&, const FaceVector<2>&, double);
 template void SoilSolver<3>::move_with(const FaceVector<3>&, const FaceVector<3>&, double);
+template void SoilSolver<2>::put_solids_in_water(double);
+template void SoilSolver<3>::put_solids_in_water(double);
 template void SoilSolver<2>::press_solids(FaceVector<2>&, double);
 template void SoilSolver<3>::press_solids(FaceVector<3>&, double);
 template void SoilSolver<2>::rub_walls(const FaceVector<2>&, double, FaceVector<2>&);

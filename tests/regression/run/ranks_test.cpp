@@ -43,6 +43,10 @@ TEST_F(Ranks, GiveTheSameWallPushedThroughASubmergedBed) {
   expect_the_same_on_ranks("one_water_solid_2d");
 }
 
+TEST_F(Ranks, GiveTheSameBlockThatWaterPushesOnABed) {
+  expect_the_same_on_ranks("one_water_free_2d");
+}
+
 TEST_F(Ranks, GiveTheSameThrownBlockOfSoilIn3D) { expect_the_same_on_ranks("soil_3d"); }
 
 TEST_F(Ranks, GiveTheSameLumpWhosePointsAreSplit) { expect_the_same_on_ranks("drawn"); }

@@ -83,6 +83,9 @@ TEST_F(Resume, AfterKillsGivesTheSameBitsOfARunWithOneWater) {
 TEST_F(Resume, AfterKillsGivesTheSameBitsOfABodyInOneWater) {
   kill_and_resume("one_water_solid_2d", 2, 2, 9);
 }
+TEST_F(Resume, AfterKillsGivesTheSameBitsOfABodyThatIsFreeInOneWater) {
+  kill_and_resume("one_water_free_2d", 2, 2, 10);
+}
 TEST_F(Resume, AfterKillsGivesTheSameBitsOfSoilAlone) { kill_and_resume("soil_3d", 1, 3, 4); }
 TEST_F(Resume, AfterKillsGivesTheSameBitsOfSplitPoints) { kill_and_resume("drawn", 2, 2, 6); }
 /// On one rank: the direct solver of implicit steps sums up what other ranks send as it arrives.

@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "base/errors.hpp"
+#include "grid/solid.hpp"
 #include "grid/triangle_mesh.hpp"
-#include "soil/solid.hpp"
 
 namespace mudlark {
 namespace {

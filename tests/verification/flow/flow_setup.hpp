@@ -60,6 +60,7 @@ struct FlowRun {
   void step(double dt) {
     flow.move_solids(medium, dt);
     flow.advance(medium, dt);
+    flow.drive_solids(dt);
     time += dt;
   }
 };

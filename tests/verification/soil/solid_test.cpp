@@ -1,6 +1,6 @@
 // ranks: 1 3
 /// Rigid bodies in contact with soil: exact forces and motions.
-#include "soil/solid.hpp"
+#include "grid/solid.hpp"
 
 #include <gtest/gtest.h>
 

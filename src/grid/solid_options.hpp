@@ -1,5 +1,5 @@
 #pragma once
-/// Rigid bodies in soil as the case file gives them, plain data (SI units).
+/// Rigid bodies as the case file gives them, plain data (SI units).
 #include <optional>
 #include <string>
 #include <variant>
@@ -9,7 +9,7 @@
 
 namespace mudlark {
 
-/// Motion under weight, given forces and the soil. In the plane what is per body is per metre of
+/// Motion under weight, given forces, soil and water. In the plane what is per body is per metre of
 /// thickness.
 struct FreeSolid {
   std::optional<double> mass;                    ///< [kg]; else from the density

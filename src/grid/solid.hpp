@@ -1,8 +1,8 @@
 #pragma once
-/// One rigid body: where it is, how it moves, what the soil does to it.
+/// One rigid body: where it is, how it moves, what soil and water do to it.
 #include "grid/rigid_pose.hpp"
 #include "grid/shape_volume.hpp"
-#include "soil/solid_options.hpp"
+#include "grid/solid_options.hpp"
 
 namespace mudlark {
 
@@ -29,6 +29,15 @@ class Solid {
   double largest_speed(const BoxShape& within) const {
     return velocity_.norm() + spin_.norm() * pose_.reach(within);
   }
+
+  /// In water of a density [kg/m3] in a domain: a free body's inertia is also that of a mass of
+  /// water, of its size or more, and what that mass lets through of the last step's acceleration is
+  /// a force. The two cancel but for the delay of the water's answer
+  /// (docs/methods/bodies-in-water.md, Bodies that are free). Before the first step.
+  void put_in_water(double density, const BoxShape& domain);
+  /// The water's force [N] and moment [N m] over a step of dt [s] in which it saw the body move as
+  /// in the last move(): corrects the velocity that begin_step() and set_impulse() left.
+  void feel_water(const Vector& force, const Vector& moment, double dt);
 
   /// Opens an outer step: force and moment are means over it.
   void begin_outer_step();
@@ -77,6 +86,10 @@ class Solid {
     a.number(at + "elapsed", elapsed_);
     for (int i = 0; i < 4; ++i)
       a.number(at + "first turn " + std::to_string(i), first_turn_.coeffs()[i]);
+    if (in_water()) {
+      vector("push", push_), vector("turning push", turning_push_);
+      vector("moved velocity", moved_velocity_), vector("moved spin", moved_spin_);
+    }
     update_inertia();
   }
 
@@ -86,6 +99,8 @@ class Solid {
   void set_mass(const FreeSolid& motion, const std::optional<SolidVolume>& volume);
   void begin_free_step(const FreeSolid& motion, double time, double dt);
   void update_inertia();
+  bool in_water() const { return added_mass_ > 0.0; }
+  double inertial_mass() const { return inertia_factor_ * mass_ + added_mass_; }
 
   SolidOptions options_;
   int dimension_;
@@ -96,6 +111,12 @@ class Solid {
   Eigen::Matrix3d inertia_ = Eigen::Matrix3d::Zero();  ///< in the shape's frame [kg m2]
   Eigen::Matrix3d inertia_now_ = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d turning_ = Eigen::Matrix3d::Zero();  ///< inverse of it on the free axes
+  Eigen::Matrix3d answer_ = Eigen::Matrix3d::Zero();   ///< the same with that of added water
+  double added_mass_ = 0.0, added_inertia_ = 0.0;      ///< of water [kg], [kg m2]
+  /// Of the water, and what the added mass lets through of the acceleration that the water saw [N].
+  Vector push_ = Vector::Zero(), turning_push_ = Vector::Zero();
+  Vector moved_velocity_ = Vector::Zero(), moved_spin_ = Vector::Zero();  ///< of the last move
+  Vector acceleration_ = Vector::Zero(), turning_acceleration_ = Vector::Zero();  ///< in it
   Vector origin_, velocity_ = Vector::Zero(), spin_ = Vector::Zero();
   Vector predicted_velocity_ = Vector::Zero(), predicted_spin_ = Vector::Zero();
   Eigen::Quaterniond first_turn_ = Eigen::Quaterniond::Identity();
