@@ -27,8 +27,8 @@ struct UnifiedCoupling<D>::Balance {
   double unbalanced = 0.0, external = 0.0, kinetic = 0.0, work = 0.0;
 };
 
-/// Water stands still and keeps its pressure: grains alone move, under their weight, stress and that
-/// pressure, damped as the options of the soil say for now.
+/// Water stands still and keeps its pressure: grains alone move, under their weight, stress and
+/// that pressure, damped as the options of the soil say for now.
 template <int D>
 auto UnifiedCoupling<D>::step_towards_rest(const Push& push, const FlowSolver<D>& flow,
                                            const Space<D>& space, SoilSolver<D>& soil, double dt)
@@ -45,8 +45,7 @@ auto UnifiedCoupling<D>::step_towards_rest(const Push& push, const FlowSolver<D>
       const double inertia = grains_.inertia[a][face];
       if (inertia <= 0.0) return;
       double& velocity = grains_.velocity[a][face];
-      const double water = grains_.share[a][face] * push.per_share[a][face] +
-                           push.menisci[a][face];
+      const double water = grains_.share[a][face] * push.per_share[a][face] + push.menisci[a][face];
       const double force = grains_.force[a][face] + water, given = inertia * weight + water;
       velocity += dt * force / inertia;
       now.external += given * given;
@@ -98,10 +97,14 @@ void UnifiedCoupling<D>::find_equilibrium(FlowSolver<D>& flow, const PorousMediu
   soil.begin_at_rest(given);
 }
 
-template UnifiedCoupling<2>::Balance UnifiedCoupling<2>::step_towards_rest(
-    const Push&, const FlowSolver<2>&, const Space<2>&, SoilSolver<2>&, double);
-template UnifiedCoupling<3>::Balance UnifiedCoupling<3>::step_towards_rest(
-    const Push&, const FlowSolver<3>&, const Space<3>&, SoilSolver<3>&, double);
+template UnifiedCoupling<2>::Balance UnifiedCoupling<2>::step_towards_rest(const Push&,
+                                                                           const FlowSolver<2>&,
+                                                                           const Space<2>&,
+                                                                           SoilSolver<2>&, double);
+template UnifiedCoupling<3>::Balance UnifiedCoupling<3>::step_towards_rest(const Push&,
+                                                                           const FlowSolver<3>&,
+                                                                           const Space<3>&,
+                                                                           SoilSolver<3>&, double);
 template void UnifiedCoupling<2>::find_equilibrium(FlowSolver<2>&, const PorousMedium<2>&,
                                                    SoilSolver<2>&);
 template void UnifiedCoupling<3>::find_equilibrium(FlowSolver<3>&, const PorousMedium<3>&,
