@@ -116,8 +116,8 @@ class FlowSolver {
   SolidLoad solid_load_ahead(std::size_t body, double time) const;
   const SolveReport& last_solve() const { return last_solve_; }
 
-  /// What the present pressure does to grains that share it: acceleration of a unit mass per unit
-  /// of their share of a face [N/m3], and what menisci pull with [N/m3]. Collective.
+  /// What the present pressure does to grains at rest: force per unit of their share of a face
+  /// [N/m3], and what menisci pull them with [N/m3]. Between steps. Collective.
   void push_on_grains(const PorousMedium<D>& medium, FaceVector<D>& per_share,
                       FaceVector<D>& menisci);
 
