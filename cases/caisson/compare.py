@@ -155,7 +155,7 @@ def compare_row(results, name, foot, findings):
             findings.check(line, 100 * (found / wanted - 1), 5)
         else:
             print(f"{line}: {100 * (found / wanted - 1):+.1f} %")
-    print(f"  the force comes {np.degrees(np.angle(exact_force / force)):+.1f} degrees before the exact one")
+    print(f"  the force comes {np.degrees(np.angle(force / exact_force)):+.1f} degrees after the exact one")
     for text, found, per_level in (("force", force, force_per_level), ("moment", moment, moment_per_level)):
         linear = abs(2 * HALF * per_level(foot) * (front - lee))
         text = f"  {text} against linear theory from the levels at front and lee ({linear:.4g})"
