@@ -35,8 +35,10 @@ void FlowSolver<D>::push_solids(std::vector<Solid>& leaders, double dt) const {
 
 template <int D>
 void FlowSolver<D>::drive_solids(double dt) {
-  for (Solid& solid : solids_.free()) solid.begin_step(time_, dt, false);
+  for (Solid& solid : solids_.free()) solid.begin_outer_step(), solid.begin_step(time_, dt, false);
   push_solids(solids_.free(), dt);
+  solids_.collide(time_, dt);
+  for (Solid& solid : solids_.free()) solid.book(dt);
   solids_.follow(solids_.free());
 }
 
@@ -53,7 +55,7 @@ void FlowSolver<D>::follow_solids(const PorousMedium<D>& medium) {
   const double* loose = loose_.data();
   double* theta = porosity_.data();
   for_each_offset(*grid_, grid_->owned(), [&](std::ptrdiff_t at) {
-    if (loose[at] > 0.0) theta[at] = std::max(volume[at] * given[at], w[at]);
+    if (loose[at] > 0.0 && volume[at] > 0.0) theta[at] = std::max(volume[at] * given[at], w[at]);
   });
 }
 

@@ -68,6 +68,8 @@ class FlowSolver {
   /// the last step of dt [s], and their velocity for the next one.
   void push_solids(std::vector<Solid>& leaders, double dt) const;
   void follow_leaders(const std::vector<Solid>& leaders) { solids_.follow(leaders); }
+  /// After move_solids(): puts the leaders a step ahead of the water's bodies.
+  void place_leaders(std::vector<Solid>& leaders, double dt) const { solids_.lead(leaders, dt); }
 
   /// Largest step that keeps the transport bounded, the viscosity stable and surface waves resolved
   /// [s] (NUMERICS B2, B5). The same on all ranks.

@@ -43,7 +43,8 @@ struct FlowSolid {
   Shape shape;                   ///< where it is at time zero
   std::optional<Point3> centre;  ///< what it turns about [m]
   std::variant<FixedSolid, PrescribedSolid, FreeSolid> motion{};
-  bool no_slip = false;  ///< else water slips along its surface
+  bool no_slip = false;   ///< else water slips along its surface
+  double friction = 0.0;  ///< Coulomb's coefficient against other bodies and sides [-]
 };
 
 /// Friction of no-slip walls. resolved: the viscous profile between the wall and the first row of

@@ -17,6 +17,9 @@ namespace {
 /// Cells with less open volume are joined to a neighbour: water that passes them would dictate the
 /// step to all others.
 constexpr double smallest_volume = 0.1;
+/// Water that a closing cell may keep when no neighbour can take it, as a share of its size: what a
+/// body leaves that moves by a quarter of a cell.
+constexpr double thickest_film = 0.4;
 
 template <int D>
 BoxShape box_of(const Grid<D>& grid) {
@@ -53,10 +56,12 @@ SolidBodies<D>::SolidBodies(const Grid<D>& grid, const std::vector<FlowSolid>& o
     moving_ = moving_ || !std::holds_alternative<FixedSolid>(solid.motion);
     const auto* motion = std::get_if<FreeSolid>(&solid.motion);
     if (!motion) continue;
-    free_.emplace_back(SolidOptions{solid.name, solid.shape, solid.centre, *motion}, D,
-                       to_point3(grid.gravity()), 1.0);
+    free_.emplace_back(
+        SolidOptions{solid.name, solid.shape, solid.centre, *motion, solid.friction}, D,
+        to_point3(grid.gravity()), 1.0);
     free_.back().put_in_water(density, box_of(grid));
   }
+  if (!free_.empty()) collisions_.emplace(grid, true, poses_);
   follow(free_);
   velocities_ = next_;
 }
@@ -66,7 +71,30 @@ void SolidBodies<D>::follow(const std::vector<Solid>& leaders) {
   for (const Solid& leader : leaders)
     if (const auto body = find(leader.options().name); body && leader.free())
       next_[*body] = {leader.velocity(), leader.spin()};
-  if (&leaders != &free_) free_.clear();
+  if (&leaders != &free_) free_.clear(), collisions_.reset();
+}
+
+/// Where a free body is the water sees a step later, so bodies with given motion are taken where
+/// they will be then.
+template <int D>
+void SolidBodies<D>::collide(double time, double dt) {
+  if (!collisions_) return;
+  std::vector<RigidPose> poses = poses_;
+  std::vector<SolidCollisions::Body> bodies;
+  for (std::size_t b = 0; b < poses_.size(); ++b) {
+    RigidVelocity velocity;
+    if (const auto* given = std::get_if<PrescribedSolid>(&options_[b].motion)) {
+      velocity = poses_[b].prescribed(*given, time, dt);
+      poses[b].move(velocity, dt);
+    }
+    bodies.push_back({&poses[b], velocity, options_[b].friction, nullptr});
+  }
+  for (Solid& solid : free_) {
+    SolidCollisions::Body& body = bodies[*find(solid.options().name)];
+    body.pose = &solid.pose(), body.free = &solid;
+    body.velocity = {solid.velocity(), solid.spin()};
+  }
+  collisions_->settle(bodies, dt);
 }
 
 template <int D>
@@ -74,6 +102,13 @@ std::optional<std::size_t> SolidBodies<D>::find(const std::string& name) const {
   for (std::size_t b = 0; b < options_.size(); ++b)
     if (options_[b].name == name) return b;
   return {};
+}
+
+template <int D>
+Eigen::Vector3d SolidBodies<D>::collision_force(std::size_t body) const {
+  for (const Solid& solid : free_)
+    if (solid.options().name == options_[body].name) return solid.collision_force();
+  return Eigen::Vector3d::Zero();
 }
 
 template <int D>
@@ -85,6 +120,19 @@ void SolidBodies<D>::move(double time, double dt) {
     velocities_[b] = next_[b];
   }
   for (Solid& solid : free_) solid.move(dt);
+  lead(free_, dt);
+}
+
+/// The leader has moved already, by a step of another length than the water will move the body by.
+template <int D>
+void SolidBodies<D>::lead(std::vector<Solid>& leaders, double dt) const {
+  for (Solid& leader : leaders) {
+    const auto body = find(leader.options().name);
+    if (!body || !leader.free()) continue;
+    RigidPose ahead = poses_[*body];
+    ahead.move(velocities_[*body], dt);
+    leader.place_at(ahead);
+  }
 }
 
 template <int D>
@@ -302,19 +350,20 @@ void SolidBodies<D>::regroup(const Space<D>& space, CellField<D>& capacity, Cell
   ghosts_.update(water);
 }
 
-/// Water in a cell that bodies closed and no neighbour took ends the run.
+/// Water in a cell that bodies closed and no neighbour took stays there as a film, until a cell opens
+/// beside it; more than a film ends the run.
 template <int D>
 void SolidBodies<D>::check_shut_in(const Space<D>& space, CellField<D>& capacity,
                                    const CellField<D>& water) const {
   std::string problem;
   for_each(grid_->owned(), [&](const Index<D>& cell) {
     if (space.volume[cell] > 0.0 || capacity[cell] == 0.0) return;
-    if (water[cell] > 0.0)
+    if (water[cell] > thickest_film * open_.volume[cell])
       problem = fmt::format(
           "A body closes a cell with water at {}, and no open cell beside it can take the water. "
           "Leave a gap of more than a cell between moving bodies, walls and other bodies.",
           place_text(grid_->cell_centre(cell)));
-    capacity[cell] = 0.0;
+    capacity[cell] = 4.0 * water[cell];  // too empty for a pressure: no face is open
   });
   throw_divergence_if_any(grid_->comm(), problem);
 }

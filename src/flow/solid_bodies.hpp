@@ -7,6 +7,7 @@
 #include "flow/porous_medium.hpp"
 #include "grid/cut_cells.hpp"
 #include "grid/solid.hpp"
+#include "grid/solid_collisions.hpp"
 #include "numerics/wall_band.hpp"
 
 namespace mudlark {
@@ -43,8 +44,16 @@ class SolidBodies {
   void move(double time, double dt);
   /// Free bodies take the velocity of others with their names, and leave it to them from then on.
   void follow(const std::vector<Solid>& leaders);
+  /// Puts free bodies with the same names where they will be after a step of dt [s], with the
+  /// velocity that the water's flux has now.
+  void lead(std::vector<Solid>& leaders, double dt) const;
   /// Free bodies that nothing else drives.
   std::vector<Solid>& free() { return free_; }
+  /// Corrects their velocities where they touch a side or another body, for a step of dt [s] from
+  /// `time` on.
+  void collide(double time, double dt);
+  /// Of sides and other bodies in the last step [N].
+  Eigen::Vector3d collision_force(std::size_t body) const;
   /// Room that the bodies leave where they are now, and the volume flux of those that move.
   void fill(PorousMedium<D>& medium);
 
@@ -91,6 +100,7 @@ class SolidBodies {
   std::vector<RigidVelocity> velocities_;
   std::vector<RigidVelocity> next_;  ///< of free bodies, for the water's flux of the coming step
   std::vector<Solid> free_;
+  std::optional<SolidCollisions> collisions_;  ///< of them
   bool moving_ = false, no_slip_ = false;
   Space<D> open_;  ///< without bodies
   CutCells<D> cut_;

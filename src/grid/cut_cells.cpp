@@ -84,15 +84,26 @@ SurfaceDistance CutCells<D>::nearest(const std::vector<RigidPose>& bodies, const
   return found;
 }
 
-/// Distance at a corner, given in half cells and mirrored into the domain.
+/// Distance at a corner, given in half cells and mirrored into the domain. A body that stands on a
+/// side has a surface there that no water sees: a corner on it takes the distance of the corner
+/// before it, as if the body went on behind the side.
 template <int D>
 double CutCells<D>::sample(const std::vector<RigidPose>& bodies, const Index<D>& twice) const {
-  Vec<D> place;
-  for (int a = 0; a < D; ++a)
-    place[a] =
-        place_of(a, grid_->periodic(a) ? twice[a] : reflected(twice[a], 2 * grid_->cells()[a]));
+  Vec<D> place, inwards;
+  for (int a = 0; a < D; ++a) {
+    const int last = 2 * grid_->cells()[a];
+    const int index = grid_->periodic(a) ? twice[a] : reflected(twice[a], last);
+    place[a] = place_of(a, index);
+    if (!grid_->periodic(a) && (index == 0 || index == last))
+      inwards[a] = place_of(a, index == 0 ? 2 : last - 2) - place[a];
+  }
   std::size_t body = 0;
-  const double distance = nearest(bodies, to_point3(place), 2.0 * diagonal_, body).distance;
+  const auto distance_at = [&](const Vec<D>& at) {
+    return nearest(bodies, to_point3(at), 2.0 * diagonal_, body).distance;
+  };
+  double distance = distance_at(place);
+  if (std::abs(distance) < snap_ && norm(inwards) > 0.0)
+    distance = std::min(distance, distance_at(place + inwards));
   return nonzero(std::clamp(distance, -2.0 * diagonal_, 2.0 * diagonal_));
 }
 

@@ -34,6 +34,7 @@ class RigidPose {
   /// The shape as given, which turns about `centre` [m].
   RigidPose(const Shape& shape, const Point3& centre, int dimension);
 
+  const Shape& shape() const { return shape_; }  ///< as given
   const Vector& start_centre() const { return start_centre_; }
   const Vector& centre() const { return centre_; }          ///< [m]
   const Eigen::Quaterniond& turn() const { return turn_; }  ///< from the shape as given
@@ -44,6 +45,10 @@ class RigidPose {
   /// Within a box around the body that has `reach` [m] to spare on each side?
   bool near(const Point3& place, double reach) const;
   SurfaceDistance distance(const Point3& place) const;
+  /// Where a place of the shape as given is now [m].
+  Vector place(const Vector& as_given) const {
+    return centre_ + turn_ * (as_given - start_centre_);
+  }
   /// Farthest way from the centre to places of the body within a box [m].
   double reach(const BoxShape& within) const;
 

@@ -123,21 +123,20 @@ void Solid::put_in_water(double density, const BoxShape& domain) {
     if (dimension_ == 3 || a != 1)
       size[a] = std::max(0.0, std::min(box().upper[a], domain.upper[a]) -
                                   std::max(box().lower[a], domain.lower[a]));
-  if (dimension_ == 2) {
-    const double longest = std::max(size[0], size[2]);
-    added_mass_ = 1.2 * density * longest * longest;
-    added_inertia_ = 0.06 * density * std::pow(longest, 4);
-  } else {
-    std::sort(size.begin(), size.end());
-    const double longest = size[2], next = size[1];
-    added_mass_ = 1.2 * density * longest * longest * next;
-    added_inertia_ = 0.06 * density * std::pow(longest, 4) * next;
-  }
+  if (dimension_ == 3) std::sort(size.begin(), size.end());
+  const double longest = std::max(size[0], size[2]), next = size[1];  // in the plane a metre
+  wide_mass_ = 1.2 * density * longest * longest * next;
+  wide_inertia_ = 0.06 * density * std::pow(longest, 4) * next;
+  set_added_mass();
+  moved_velocity_ = velocity_, moved_spin_ = spin_;  // the water starts with it
+}
+
+void Solid::set_added_mass() {
+  added_mass_ = growth_ * wide_mass_, added_inertia_ = growth_ * wide_inertia_;
   if (mobility_ > 0.0) mobility_ = 1.0 / inertial_mass();
   update_inertia();
   turning_mobility_ =
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(answer_).eigenvalues().maxCoeff();
-  moved_velocity_ = velocity_, moved_spin_ = spin_;  // the water starts with it
 }
 
 void Solid::feel_water(const Vector& force, const Vector& moment, double dt) {
@@ -151,12 +150,12 @@ void Solid::feel_water(const Vector& force, const Vector& moment, double dt) {
 }
 
 void Solid::begin_outer_step() {
-  impulse_sum_.setZero(), moment_sum_.setZero();
+  impulse_sum_.setZero(), moment_sum_.setZero(), collision_sum_.setZero();
   elapsed_ = 0.0;
 }
 
 void Solid::begin_step(double time, double dt, bool held) {
-  impulse_.setZero(), moment_.setZero();
+  impulse_.setZero(), moment_.setZero(), collision_.setZero();
   if (const auto* motion = std::get_if<FreeSolid>(&options_.motion)) {
     begin_free_step(*motion, time, dt);
   } else if (const auto* given = std::get_if<PrescribedSolid>(&options_.motion); given && !held) {
@@ -183,20 +182,74 @@ void Solid::set_impulse(const Vector& impulse, const Vector& moment) {
   spin_ = predicted_spin_ + answer_ * moment;
 }
 
+RigidVelocity Solid::response(const Vector& impulse, const Vector& moment) const {
+  if (!free()) return {};
+  return {free_axes_.cwiseProduct(impulse) / inertial_mass(), answer_ * moment};
+}
+
+namespace {
+
+/// The part of a change that a stop has made: none of what goes another way, and no more than it.
+Eigen::Vector3d part_of(const Eigen::Vector3d& change, const Eigen::Vector3d& stop) {
+  const double size = stop.norm();
+  if (size == 0.0) return Eigen::Vector3d::Zero();
+  return std::clamp(change.dot(stop) / size, 0.0, size) / size * stop;
+}
+
+}  // namespace
+
+/// The added mass is not stopped: the water answers to that in the next step, and what the added
+/// mass let through then would throw the body back. So the part of the change of velocity that the
+/// collision made is none that it lets through.
+void Solid::collide(const Vector& impulse, const Vector& moment) {
+  if (!free()) return;
+  const RigidVelocity change = response(impulse, moment);
+  velocity_ += change.velocity, spin_ += change.spin;
+  collision_ = impulse;
+  if (!in_water()) return;
+  stopped_ = part_of(velocity_ - moved_velocity_, change.velocity);
+  stopped_spin_ = part_of(spin_ - moved_spin_, change.spin);
+  collision_ -= added_mass_ * stopped_;
+}
+
 void Solid::book(double dt) {
-  impulse_sum_ += impulse_, moment_sum_ += moment_;
+  impulse_sum_ += impulse_, moment_sum_ += moment_, collision_sum_ += collision_;
   elapsed_ += dt;
 }
 
 void Solid::move(double dt) {
-  acceleration_ = (velocity_ - moved_velocity_) / dt, moved_velocity_ = velocity_;
-  turning_acceleration_ = (spin_ - moved_spin_) / dt, moved_spin_ = spin_;
+  const Vector before = acceleration_, turning_before = turning_acceleration_;
+  acceleration_ = (velocity_ - moved_velocity_ - stopped_) / dt, moved_velocity_ = velocity_;
+  turning_acceleration_ = (spin_ - moved_spin_ - stopped_spin_) / dt, moved_spin_ = spin_;
+  stopped_.setZero(), stopped_spin_.setZero();
+  if (in_water()) watch_growth(before, turning_before);
   const Vector angular_momentum = inertia_now_ * spin_;
   const bool turns = spin_.squaredNorm() > 0.0;
   pose_.move({velocity_, spin_}, dt);
   if (!turns) return;
   update_inertia();
   if (free()) spin_ = turning_ * angular_momentum;
+}
+
+void Solid::place_at(const RigidPose& pose) {
+  pose_ = pose;
+  update_inertia();
+}
+
+/// Acceleration that changes its sign from step to step and hardly falls says that the water
+/// answers with more than the added mass takes (narrow gaps): then it grows, and shrinks again
+/// afterwards.
+void Solid::watch_growth(const Vector& before, const Vector& turning_before) {
+  constexpr double hardly = 0.5, faster = 1.5, slower = 0.98;
+  const auto swings = [](const Vector& now, const Vector& last) {
+    return now.dot(last) < -hardly * last.squaredNorm();
+  };
+  const double old = growth_;
+  if (swings(acceleration_, before) || swings(turning_acceleration_, turning_before))
+    growth_ *= faster;
+  else
+    growth_ = std::max(1.0, slower * growth_);
+  if (growth_ != old) set_added_mass();
 }
 
 void Solid::stop() { velocity_.setZero(), spin_.setZero(); }

@@ -17,6 +17,7 @@ class Solid {
   Solid(const SolidOptions& options, int dimension, const Point3& gravity, double inertia_factor);
 
   const SolidOptions& options() const { return options_; }
+  const RigidPose& pose() const { return pose_; }
   /// Within a box around the body that has `reach` [m] to spare on each side?
   bool near(const Point3& place, double reach) const { return pose_.near(place, reach); }
   /// Smallest box around the body where it is now.
@@ -45,10 +46,16 @@ class Solid {
   void begin_step(double time, double dt, bool held);
   /// Velocity with an impulse [N s] and its moment about the centre [N m s] by the soil.
   void set_impulse(const Vector& impulse, const Vector& moment);
-  /// Books the impulse of a step of dt [s].
+  /// Change of velocity by an impulse [N s] and its moment [N m s].
+  RigidVelocity response(const Vector& impulse, const Vector& moment) const;
+  /// Impulse of other bodies and sides in the step, after all others.
+  void collide(const Vector& impulse, const Vector& moment);
+  /// Books the impulses of a step of dt [s].
   void book(double dt);
   /// Moves with the present velocity.
   void move(double dt);
+  /// Stands at another place, as after move().
+  void place_at(const RigidPose& pose);
   /// Stands still, until the forces on it or start() move it.
   void stop();
   /// Takes on its velocity of time zero; counts displacement and rotation from here where asked.
@@ -71,6 +78,10 @@ class Solid {
   /// Of the soil on the body, mean over the outer step [N]; its moment about the centre [N m].
   Vector force() const { return elapsed_ > 0.0 ? Vector(impulse_sum_ / elapsed_) : Vector::Zero(); }
   Vector moment() const { return elapsed_ > 0.0 ? Vector(moment_sum_ / elapsed_) : Vector::Zero(); }
+  /// Of other bodies and the domain's sides, mean over the outer step [N].
+  Vector collision_force() const {
+    return elapsed_ > 0.0 ? Vector(collision_sum_ / elapsed_) : Vector::Zero();
+  }
   double kinetic_energy() const;  ///< [J]
   Vector momentum() const { return mass_ * velocity_; }
 
@@ -83,12 +94,17 @@ class Solid {
     pose_.archive(a, at);
     vector("origin", origin_), vector("velocity", velocity_), vector("spin", spin_);
     vector("impulse", impulse_sum_), vector("moment", moment_sum_);
+    vector("collision", collision_sum_);
     a.number(at + "elapsed", elapsed_);
     for (int i = 0; i < 4; ++i)
       a.number(at + "first turn " + std::to_string(i), first_turn_.coeffs()[i]);
     if (in_water()) {
       vector("push", push_), vector("turning push", turning_push_);
       vector("moved velocity", moved_velocity_), vector("moved spin", moved_spin_);
+      vector("stopped", stopped_), vector("stopped spin", stopped_spin_);
+      vector("acceleration", acceleration_), vector("turning acceleration", turning_acceleration_);
+      a.number(at + "growth", growth_);
+      set_added_mass();
     }
     update_inertia();
   }
@@ -99,6 +115,8 @@ class Solid {
   void set_mass(const FreeSolid& motion, const std::optional<SolidVolume>& volume);
   void begin_free_step(const FreeSolid& motion, double time, double dt);
   void update_inertia();
+  void set_added_mass();
+  void watch_growth(const Vector& before, const Vector& turning_before);
   bool in_water() const { return added_mass_ > 0.0; }
   double inertial_mass() const { return inertia_factor_ * mass_ + added_mass_; }
 
@@ -113,15 +131,19 @@ class Solid {
   Eigen::Matrix3d turning_ = Eigen::Matrix3d::Zero();  ///< inverse of it on the free axes
   Eigen::Matrix3d answer_ = Eigen::Matrix3d::Zero();   ///< the same with that of added water
   double added_mass_ = 0.0, added_inertia_ = 0.0;      ///< of water [kg], [kg m2]
+  double wide_mass_ = 0.0, wide_inertia_ = 0.0;        ///< the same in wide water
+  double growth_ = 1.0;                                ///< of the added mass over that
   /// Of the water, and what the added mass lets through of the acceleration that the water saw [N].
   Vector push_ = Vector::Zero(), turning_push_ = Vector::Zero();
   Vector moved_velocity_ = Vector::Zero(), moved_spin_ = Vector::Zero();  ///< of the last move
   Vector acceleration_ = Vector::Zero(), turning_acceleration_ = Vector::Zero();  ///< in it
+  Vector stopped_ = Vector::Zero(), stopped_spin_ = Vector::Zero();  ///< by collisions in the step
   Vector origin_, velocity_ = Vector::Zero(), spin_ = Vector::Zero();
   Vector predicted_velocity_ = Vector::Zero(), predicted_spin_ = Vector::Zero();
   Eigen::Quaterniond first_turn_ = Eigen::Quaterniond::Identity();
   Vector impulse_ = Vector::Zero(), moment_ = Vector::Zero();  ///< of the present step
   Vector impulse_sum_ = Vector::Zero(), moment_sum_ = Vector::Zero();
+  Vector collision_ = Vector::Zero(), collision_sum_ = Vector::Zero();
   double elapsed_ = 0.0;  ///< of the outer step [s]
 };
 

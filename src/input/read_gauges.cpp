@@ -17,7 +17,7 @@ struct Kind {
   bool has_place;
 };
 
-constexpr std::array<Kind, 23> kinds{{
+constexpr std::array<Kind, 24> kinds{{
     {GaugeQuantity::water_level, "water_level", Of::water, true},
     {GaugeQuantity::pressure, "pressure", Of::water, true},
     {GaugeQuantity::velocity, "velocity", Of::water, true},
@@ -40,6 +40,7 @@ constexpr std::array<Kind, 23> kinds{{
     {GaugeQuantity::solid_displacement, "solid_displacement", Of::solid, false},
     {GaugeQuantity::solid_rotation, "solid_rotation", Of::solid, false},
     {GaugeQuantity::solid_velocity, "solid_velocity", Of::solid, false},
+    {GaugeQuantity::solid_collision, "solid_collision", Of::solid, false},
     {GaugeQuantity::discharge, "discharge", Of::soil, false},
 }};
 

@@ -150,6 +150,14 @@ void read_motion(Section& section, SolidOptions& solid) {
   motion.finish();
 }
 
+bool is_free(Section& section) {
+  const Value* value = section.raw("motion");
+  const auto* motion = value ? std::get_if<Table>(&value->data) : nullptr;
+  const Entry* type = motion ? find_entry(*motion, "type") : nullptr;
+  const auto* word = type ? std::get_if<std::string>(&type->value.data) : nullptr;
+  return word && *word == "free";
+}
+
 double read_friction(Section& section) {
   const Value* value = section.raw("friction_coefficient");
   const auto* word = value ? std::get_if<std::string>(&value->data) : nullptr;
@@ -162,14 +170,9 @@ double read_friction(Section& section) {
       not_negative("friction cannot push", "0.4 is tan 22 degrees; \"rough\" never slips."), 0.0);
 }
 
-void read_contact(Section& section, SolidOptions& solid) {
-  solid.friction = read_friction(section);
-  solid.adhesion = section.number(
-      "adhesion", quantity::stress,
-      not_negative("the shear strength of the contact without pressure"), solid.adhesion);
-}
-
-SolidOptions read_solid(Section& section, bool in_soil, std::vector<std::string>& names) {
+/// `rubs`: there is something that it may slide along.
+SolidOptions read_solid(Section& section, bool in_soil, bool rubs,
+                        std::vector<std::string>& names) {
   SolidOptions solid;
   solid.name = read_name(section, names);
   if (const auto shape = read_shape(section, "shape", true)) solid.shape = *shape;
@@ -179,7 +182,14 @@ SolidOptions read_solid(Section& section, bool in_soil, std::vector<std::string>
     if (centre.size() == axes) solid.centre = point_from_axes(centre);
   }
   read_motion(section, solid);
-  if (in_soil) read_contact(section, solid);
+  if (rubs)
+    solid.friction = read_friction(section);
+  else
+    section.forbid("friction_coefficient", "it is for soil and for free bodies");
+  if (in_soil)
+    solid.adhesion = section.number(
+        "adhesion", quantity::stress,
+        not_negative("the shear strength of the contact without pressure"), solid.adhesion);
   return solid;
 }
 
@@ -187,13 +197,12 @@ SolidOptions read_solid(Section& section, bool in_soil, std::vector<std::string>
 FlowSolid read_flow_solid(Section& section, const SolidOptions& solid, const FlowOptions& flow,
                           bool in_soil) {
   const bool moves = !std::holds_alternative<FixedSolid>(solid.motion);
-  FlowSolid body{solid.name, solid.shape, solid.centre, {}, false};
+  FlowSolid body{solid.name, solid.shape, solid.centre, {}, false, solid.friction};
   std::visit([&](const auto& motion) { body.motion = motion; }, solid.motion);
   if (moves && flow.porous.size() > 0)
     section.fail("motion", "a body that moves in a case with [[porous]] ground is not there yet",
                  "Write \"fixed\", or make the ground [[soil]] (coupling.mode = \"unified\").");
-  for (const char* key : {"friction_coefficient", "adhesion"})
-    if (!in_soil) section.forbid(key, "it is for soil; `wall` says how water passes the body");
+  if (!in_soil) section.forbid("adhesion", "it is for soil; `wall` says how water passes the body");
   body.no_slip = section.choice<bool>("wall", {{"slip", false}, {"no-slip", true}}, false);
   if (body.no_slip && !std::holds_alternative<FixedSolid>(solid.motion))
     section.fail("wall", "water has friction on fixed bodies only");
@@ -226,9 +235,10 @@ void read_solids(Section& root, CaseOptions& options) {
                "[[water.body]]");
   std::vector<std::string> names;
   std::vector<NamedShape> bodies;
+  const bool rubs = in_soil || std::any_of(sections.begin(), sections.end(), is_free);
   for (Section& section : sections) {
     const std::size_t before = report.size();
-    SolidOptions solid = read_solid(section, in_soil, names);
+    SolidOptions solid = read_solid(section, in_soil, rubs, names);
     if (in_water)
       options.flow->solids.push_back(read_flow_solid(section, solid, *options.flow, in_soil));
     else

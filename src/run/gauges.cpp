@@ -94,6 +94,8 @@ std::vector<double> read_flow_solid(World<D>& world, const GaugeOptions& gauge) 
       return along_axes<D>(pose.centre() - pose.start_centre());
     case GaugeQuantity::solid_rotation:
       return about_axes<D>(D == 2 ? pose.turned() : rotation_of(pose.turn()));
+    case GaugeQuantity::solid_collision:
+      return along_axes<D>(solids.collision_force(body));
     default:
       return along_axes<D>(solids.velocity(body).velocity);
   }
@@ -126,6 +128,8 @@ std::vector<double> read_solid(World<D>& world, const GaugeOptions& gauge) {
       return along_axes<D>(solid.displacement());
     case GaugeQuantity::solid_rotation:
       return about_axes<D>(solid.rotation());
+    case GaugeQuantity::solid_collision:
+      return along_axes<D>(solid.collision_force());
     default:
       return along_axes<D>(solid.velocity());
   }
@@ -229,6 +233,7 @@ std::vector<std::string> gauge_columns(const GaugeOptions& gauge, int dimension)
     case GaugeQuantity::point_porosity:
       return {"porosity [1]"};
     case GaugeQuantity::solid_force:
+    case GaugeQuantity::solid_collision:
       return per_axis("force", dimension == 2 ? "N/m" : "N", dimension);
     case GaugeQuantity::solid_moment:
       return about_each("moment", dimension == 2 ? "N m/m" : "N m", dimension);
@@ -283,6 +288,7 @@ std::vector<double> read_gauge(World<D>& world, const GaugeOptions& gauge) {
     case GaugeQuantity::solid_displacement:
     case GaugeQuantity::solid_rotation:
     case GaugeQuantity::solid_velocity:
+    case GaugeQuantity::solid_collision:
       return read_solid(world, gauge);
     case GaugeQuantity::discharge:
       return {world.soil()->discharge(gauge.of)};

@@ -46,6 +46,7 @@ enum class GaugeQuantity {
   solid_displacement,  ///< of a rigid body's centre since the start [m]
   solid_rotation,      ///< of a rigid body since the start [rad]
   solid_velocity,      ///< of a rigid body's centre [m/s]
+  solid_collision,     ///< force of other bodies and of the domain's sides on a free body [N]
   discharge,           ///< of pore water out through a boundary [m^D/s] (no `at`)
 };
 

@@ -196,6 +196,7 @@ void World<D>::advance_together(double dt) {
     const Stopwatch watch(effort_.mapping);
     if (flow_->solids().moving()) {
       flow_->move_solids(medium_, dt);
+      flow_->place_leaders(soil_->solids(), dt);
       unified_->place_solids(medium_.space);
     }
     unified_->map_soil_to_grid(*soil_, fixed_, medium_);

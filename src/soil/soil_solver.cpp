@@ -90,6 +90,16 @@ SoilSolver<D>::SoilSolver(const Grid<D>& grid, const SoilOptions& options)
   for (const SolidOptions& solid : options.solids)
     solids_.emplace_back(solid, D, to_point3(grid.gravity()), options.mass_scaling);
   solid_contact_.emplace(sides_, options);
+  watch_collisions(false);
+}
+
+template <int D>
+void SoilSolver<D>::watch_collisions(bool in_water) {
+  if (std::none_of(solids_.begin(), solids_.end(), [](const Solid& one) { return one.free(); }))
+    return;
+  std::vector<RigidPose> start;
+  for (const Solid& solid : solids_) start.push_back(solid.pose());
+  collisions_.emplace(*grid_, in_water, start);
 }
 
 template <int D>
@@ -189,6 +199,7 @@ void SoilSolver<D>::advance(double dt) {
   for (Solid& solid : solids_) solid.begin_step(time_, dt, solids_wait_);
   solve_nodes(dt);
   update_points(dt);
+  if (collisions_) collisions_->settle(solids_, dt);
   for (Solid& solid : solids_) solid.book(dt), solid.move(dt);
   time_ += dt;
 }

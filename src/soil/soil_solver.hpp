@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "grid/halo.hpp"
+#include "grid/solid_collisions.hpp"
 #include "materials/soil_model.hpp"
 #include "soil/absorbing_sides.hpp"
 #include "soil/energy.hpp"
@@ -184,6 +185,7 @@ class SoilSolver {
   }
 
  private:
+  void watch_collisions(bool in_water);
   void gather_nodes() { gather_nodes(time_); }
   void gather_nodes(double body_force_time);
   void gather_sides();
@@ -225,6 +227,7 @@ class SoilSolver {
   WallContact<D> wall_contact_;
   std::optional<PoreProjection<D>> projection_;  ///< where pore pressure is found implicitly
   std::vector<Solid> solids_;
+  std::optional<SolidCollisions> collisions_;     ///< of free ones
   std::optional<SolidContact<D>> solid_contact_;  ///< where there are any
   NodeField<NodeSums, D> sums_;
   NodeField<NodeMotion, D> motion_;

@@ -49,12 +49,14 @@ template <int D>
 void SoilSolver<D>::put_solids_in_water(double density) {
   const BoxShape domain{to_point3(grid_->lower()), to_point3(grid_->upper())};
   for (Solid& solid : solids_) solid.put_in_water(density, domain);
+  watch_collisions(true);
 }
 
 template <int D>
 void SoilSolver<D>::press_solids(FaceVector<D>& velocity, double dt) {
   if (!solid_contact_) return;
   solid_contact_->settle(dt, solids_, points_, velocity);
+  if (collisions_) collisions_->settle(solids_, dt);
   for (Solid& solid : solids_) solid.begin_outer_step(), solid.book(dt);
 }
 

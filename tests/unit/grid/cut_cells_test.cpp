@@ -104,6 +104,18 @@ TEST(CutCells, ABoxOnTheGridLinesIsExactAndItsSurfaceLiesOnFaces) {
   for (const CutCell<3>& one : cut.surface()) EXPECT_EQ(cut.volume()[one.cell], 1.0);
 }
 
+/// Between grid lines, with its foot on the floor as with its foot below it.
+TEST(CutCells, ABoxThatStandsOnTheFloorHasNoSurfaceThere) {
+  const auto stand = [](double foot) {
+    return cut_out<2>(RigidPose({BoxShape{{0.27, -9.0, foot}, {0.78, 9.0, 0.5}}}, {}, 2), 10);
+  };
+  const Sums on = stand(0.0), below = stand(-0.2);
+  EXPECT_NEAR(std::abs(on.normal[1]), 0.51, 1e-12);
+  EXPECT_NEAR(on.normal[0], 0.0, 1e-12);
+  EXPECT_NEAR(on.volume, below.volume, 1e-12);
+  EXPECT_NEAR(on.size, below.size, 1e-12);
+}
+
 TEST(CutCells, ATiltedBoxConvergesAtSecondOrderAndIsClosed) {
   const Shape box{BoxShape{{0.23, -9.0, 0.31}, {0.78, 9.0, 0.72}}};
   const auto error = [&](int cells) {

@@ -166,5 +166,58 @@ TEST(FreeSolids, AFloatingBoxHeavesAroundItsDraught) {
   EXPECT_NEAR(water.present, water.initial, 1e-12 * water.initial);
 }
 
+/// Half a cell above the floor, where water still flows under it: it slides where the force is
+/// more than friction on its weight under water, and comes to rest at the wall.
+TEST(FreeSolids, ABlockOnTheFloorSlidesByTheLawOfCoulomb) {
+  const double friction = 0.5;
+  const Shape block{BoxShape{{0.25, -9.0, 0.03125}, {0.5, 9.0, 0.21875}}};
+  Tank<2> still({"body", block, {}, FixedSolid{}}, 1.0, 16, 0.8);
+  const double lift = FlowRun<2>(still.domain, still.options).flow.solid_load(0, {}).force[2];
+  const double weight = 2.0 * rho * gravity * 0.25 * 0.1875 - lift;
+  for (const double share : {0.9, 1.5}) {
+    FreeSolid motion = of_density(2.0 * rho);
+    motion.force[0] = Varying(share * friction * weight);
+    FlowSolid solid = free_body(block, motion);
+    solid.friction = friction;
+    Tank<2> tank(solid, 1.0, 16, 0.8);
+    FlowRun<2> run(tank.domain, tank.options);
+    const auto moved = [&] {
+      const RigidPose& pose = run.flow.solids().pose(0);
+      return pose.centre() - pose.start_centre();
+    };
+    for (int step = 0; step < 40; ++step) run.step(2e-3);
+    const Eigen::Vector3d floor = run.flow.solids().collision_force(0);
+    EXPECT_NEAR(floor[2], weight, 0.005 * weight) << share;
+    EXPECT_NEAR(floor[0], -std::min(share, 1.0) * friction * weight, 0.005 * weight) << share;
+    if (share < 1.0)
+      EXPECT_LT(moved().norm(), 1e-6);
+    else
+      EXPECT_GT(moved()[0], 1e-3);
+    if (share < 1.0) continue;
+    while (run.time < 2.0) run.step(std::min(5e-3, run.flow.stable_step(run.medium)));
+    EXPECT_NEAR(moved()[0], 0.5 - 0.03125, 2e-3);  // half a cell from the wall
+    EXPECT_NEAR(moved()[2], 0.0, 1e-3);
+  }
+}
+
+/// A body that sinks comes to rest on the floor and is not thrown back.
+TEST(FreeSolids, ACircleSinksToTheFloorAndStays) {
+  const double radius = 0.1;
+  const Shape circle{SphereShape{{0.5, 0.0, 0.3}, radius, true}};
+  Tank<2> tank(free_body(circle, of_density(3.0 * rho)), 1.0, 24, 0.8);
+  FlowRun<2> run(tank.domain, tank.options);
+  const double floor = radius + 0.5 / 24.0;
+  double lowest = 1.0, after = 0.0;
+  while (run.time < 0.8) {
+    run.step(std::min(5e-3, run.flow.stable_step(run.medium)));
+    lowest = std::min(lowest, height_of(run));
+    if (lowest < floor + 0.005) after = std::max(after, height_of(run));
+  }
+  EXPECT_NEAR(lowest, floor, 0.002);
+  EXPECT_LT(after, floor + 0.007);
+  const WaterLedger water = run.flow.ledger();
+  EXPECT_NEAR(water.present, water.initial, 1e-12 * water.initial);
+}
+
 }  // namespace
 }  // namespace mudlark
