@@ -20,7 +20,8 @@ namespace {
 constexpr double drift_feedback = 0.1;
 /// With grains that give way to pressure it is taken back no faster than waves of one cell take:
 /// what the points' places scatter would otherwise be pressure, and the more the shorter the steps
-/// are (docs/decisions/0070).
+/// are (docs/decisions/0070). The same beside bodies that move: their cells close and open by what
+/// the shares of a finite step say, and in a short step that would be a blow (0087).
 template <int D>
 double slow_feedback(const Grid<D>& grid) {
   const double gravity = norm(grid.gravity());
@@ -239,11 +240,16 @@ void FlowSolver<D>::find_target(const PorousMedium<D>& medium, double dt, double
   const double* volume = medium.space.volume.data();
   const double* stored = storage_ ? storage_->stored().data() : nullptr;
   double* target = target_.data();
+  const double beside_bodies = solids_.moving() ? slow_feedback(grid) : HUGE_VAL;
   for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) {
     const double given = volume[at] * porosity[at] + (stored ? stored[at] : 0.0);
     // Cells that close faster than that keep some room: without any they would dictate the step.
     const double slowest = theta[at] < 0.5 * given ? HUGE_VAL : most;
-    const double rate = porosity[at] < 1.0 ? std::min(drift_feedback / dt, slowest) : 1.0 / dt;
+    // Beside bodies the same, but little by little.
+    const double narrow = given > 0.0 ? std::max(0.0, 1.0 - 2.0 * theta[at] / given) : 0.0;
+    const double rate = porosity[at] < 1.0
+                            ? std::min(drift_feedback / dt, slowest)
+                            : std::min(1.0 / dt, beside_bodies + narrow * drift_feedback / dt);
     target[at] = dt > 0.0 ? rate * (theta[at] - given) : 0.0;
   });
   for (int a = 0; a < D; ++a) {

@@ -56,9 +56,8 @@ SolidBodies<D>::SolidBodies(const Grid<D>& grid, const std::vector<FlowSolid>& o
     moving_ = moving_ || !std::holds_alternative<FixedSolid>(solid.motion);
     const auto* motion = std::get_if<FreeSolid>(&solid.motion);
     if (!motion) continue;
-    free_.emplace_back(
-        SolidOptions{solid.name, solid.shape, solid.centre, *motion, solid.friction}, D,
-        to_point3(grid.gravity()), 1.0);
+    free_.emplace_back(SolidOptions{solid.name, solid.shape, solid.centre, *motion, solid.friction},
+                       D, to_point3(grid.gravity()), 1.0);
     free_.back().put_in_water(density, box_of(grid));
   }
   if (!free_.empty()) collisions_.emplace(grid, true, poses_);
@@ -350,8 +349,8 @@ void SolidBodies<D>::regroup(const Space<D>& space, CellField<D>& capacity, Cell
   ghosts_.update(water);
 }
 
-/// Water in a cell that bodies closed and no neighbour took stays there as a film, until a cell opens
-/// beside it; more than a film ends the run.
+/// Water in a cell that bodies closed and no neighbour took stays there as a film, until a cell
+/// opens beside it; more than a film ends the run.
 template <int D>
 void SolidBodies<D>::check_shut_in(const Space<D>& space, CellField<D>& capacity,
                                    const CellField<D>& water) const {

@@ -98,12 +98,14 @@ double CutCells<D>::sample(const std::vector<RigidPose>& bodies, const Index<D>&
       inwards[a] = place_of(a, index == 0 ? 2 : last - 2) - place[a];
   }
   std::size_t body = 0;
-  const auto distance_at = [&](const Vec<D>& at) {
-    return nearest(bodies, to_point3(at), 2.0 * diagonal_, body).distance;
+  const auto at = [&](const Vec<D>& there) {
+    return nearest(bodies, to_point3(there), 2.0 * diagonal_, body);
   };
-  double distance = distance_at(place);
-  if (std::abs(distance) < snap_ && norm(inwards) > 0.0)
-    distance = std::min(distance, distance_at(place + inwards));
+  const SurfaceDistance found = at(place);
+  double distance = found.distance;
+  if (std::abs(distance) < snap_ && norm(inwards) > 0.0 &&
+      to_vector(found.normal).dot(to_space<D>(inwards)) < -0.999 * norm(inwards))
+    distance = std::min(distance, at(place + inwards).distance);
   return nonzero(std::clamp(distance, -2.0 * diagonal_, 2.0 * diagonal_));
 }
 

@@ -238,15 +238,17 @@ void Solid::place_at(const RigidPose& pose) {
 
 /// Acceleration that changes its sign from step to step and hardly falls says that the water
 /// answers with more than the added mass takes (narrow gaps): then it grows, and shrinks again
-/// afterwards.
+/// afterwards. What is small beside weight is noise.
 void Solid::watch_growth(const Vector& before, const Vector& turning_before) {
-  constexpr double hardly = 0.5, faster = 1.5, slower = 0.98;
-  const auto swings = [](const Vector& now, const Vector& last) {
-    return now.dot(last) < -hardly * last.squaredNorm();
+  constexpr double hardly = 0.5, faster = 1.5, slower = 0.98, most = 32.0, noise = 0.05;
+  const auto swings = [&](const Vector& now, const Vector& last, double arm) {
+    return arm * now.norm() > noise * gravity_.norm() &&
+           now.dot(last) < -hardly * last.squaredNorm();
   };
+  const double arm = wide_mass_ > 0.0 ? std::sqrt(wide_inertia_ / wide_mass_) : 0.0;
   const double old = growth_;
-  if (swings(acceleration_, before) || swings(turning_acceleration_, turning_before))
-    growth_ *= faster;
+  if (swings(acceleration_, before, 1.0) || swings(turning_acceleration_, turning_before, arm))
+    growth_ = std::min(most, faster * growth_);
   else
     growth_ = std::max(1.0, slower * growth_);
   if (growth_ != old) set_added_mass();

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "base/version.hpp"
+#include "flow/flow_checks.hpp"
 #include "run/progress.hpp"
 
 namespace mudlark {
@@ -48,6 +49,18 @@ bool moved_too_far(World<D>& world, const RunSettings& settings) {
 }
 
 /// The lines of log.txt: what runs, how far it is every few seconds, how it ended.
+/// Water that takes ever shorter steps has gone wrong.
+template <int D>
+void check_hope(World<D>& world, double stable) {
+  if (!world.flow() || stable >= hopeless_share * world.effort().largest_step) return;
+  const FastestPlace<D> fastest = world.flow()->max_speed();
+  throw DivergenceError(
+      fmt::format("the stable step fell to {:.3g} s; the run would not come to its end. The "
+                  "fastest water, {:.3g} "
+                  "m/s, is at {}.",
+                  stable, fastest.speed, place_text(fastest.position)));
+}
+
 template <int D>
 class RunLog {
  public:
@@ -110,9 +123,7 @@ ExitCode run_to_end(World<D>& world, Results<D>& results, const RunSettings& set
         log.stage();
       }
       const double stable = world.stable_step();
-      if (world.flow() && !(stable >= hopeless_share * world.effort().largest_step))
-        throw DivergenceError(fmt::format(
-            "the stable step fell to {:.3g} s; the run would not come to its end.", stable));
+      check_hope(world, stable);
       const double dt = clock.choose_step(stable);
       world.advance(dt);
       if (moved_too_far(world, settings)) clock.stop();
