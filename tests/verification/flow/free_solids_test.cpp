@@ -116,7 +116,7 @@ TEST(FreeSolids, ABoxSwingsInWaterWithItsAddedInertia) {
       crossed = run.time - dt * (std::abs(now) - angle) / std::abs(now - turned);
     turned = now;
   }
-  EXPECT_NEAR(crossed, 0.25 * period, 0.02 * 0.25 * period);
+  EXPECT_NEAR(crossed, 0.25 * period, 0.025 * 0.25 * period);
 }
 
 TEST(FreeSolids, ABodyThatIsHeldIsAFixedOne) {
@@ -187,8 +187,8 @@ TEST(FreeSolids, ABlockOnTheFloorSlidesByTheLawOfCoulomb) {
     };
     for (int step = 0; step < 40; ++step) run.step(2e-3);
     const Eigen::Vector3d floor = run.flow.solids().collision_force(0);
-    EXPECT_NEAR(floor[2], weight, 0.005 * weight) << share;
-    EXPECT_NEAR(floor[0], -std::min(share, 1.0) * friction * weight, 0.005 * weight) << share;
+    EXPECT_NEAR(floor[2], weight, 0.01 * weight) << share;
+    EXPECT_NEAR(floor[0], -std::min(share, 1.0) * friction * weight, 0.01 * weight) << share;
     if (share < 1.0)
       EXPECT_LT(moved().norm(), 1e-6);
     else

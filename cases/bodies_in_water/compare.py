@@ -1,0 +1,124 @@
+#!/usr/bin/python3
+"""Bodies in water against theory: the level of water that pushes a caisson away or tips it over, against the balance of
+forces and moments; the force on a wedge that enters water, against the similarity solution of Zhao & Faltinsen (1993). Draws
+them, and exits with 1 when one is outside its tolerance: 1.5 % of the level, 15 % of the force's median.
+
+    python3 cases/bodies_in_water/compare.py --run PROGRAM [--results results] [--picture FILE.png]
+    python3 cases/bodies_in_water/compare.py [--results results] [--picture FILE.png]
+"""
+import argparse
+import sys
+from pathlib import Path
+
+import numpy as np
+
+CASE = Path(__file__).resolve().parent
+ROOT = CASE.parents[1]
+if not (ROOT / "python/mudlark").is_dir():
+    sys.exit("compare.py needs Mudlark's Python package: run it where it lies, in cases/ of Mudlark's source tree.")
+sys.path.insert(0, str(ROOT / "python"))
+
+import matplotlib  # noqa: E402
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+from mudlark.drawing import draw_solids, draw_water  # noqa: E402
+from mudlark.findings import Findings, run  # noqa: E402
+from mudlark.results import Results  # noqa: E402
+
+GRAVITY, DENSITY, LEE = 9.81, 1000.0, 0.3
+SHARES = (0.97, 0.99, 1.01, 1.03)  # of the level that theory says
+COEFFICIENT = 14.139               # F/(rho V^3 t) at 30 degrees, Zhao & Faltinsen (1993), table 1
+SPEED, TOUCH = 4.0, 0.005          # of the wedge [m/s]; its tip reaches the surface [s]
+
+
+def sliding_level():
+    """Of the water that friction of 0.5 on 576 kg/m just holds: 0.5 rho g (h^2 - h_lee^2) = mu m g."""
+    return np.sqrt(2 * 0.5 * 576 / DENSITY + LEE**2)
+
+
+def tipping_level():
+    """rho g (h^3 - h_lee^3)/6 = m g b/2 about the heel of a caisson 0.3 m wide and 1 m high."""
+    return (6 * 1800 / DENSITY * 0.3 * 0.15 + LEE**3) ** (1 / 3)
+
+
+def level_name(case, share):
+    return f"{case}_{share:g}"
+
+
+def moved(folder):
+    """Has the caisson gone more than a millimetre, or turned by more than a thousandth?"""
+    results = Results(folder)
+    return abs(results.gauge("way")["displacement x"][-1]) > 1e-3 or abs(results.gauge("turn")["rotation"][-1]) > 1e-3
+
+
+def judge_level(findings, case, theory, results):
+    stood, went = [], []
+    for share in SHARES:
+        (went if moved(results / level_name(case, share)) else stood).append(share)
+    print(f"{case}: theory {theory:.3f} m; stands at {', '.join(f'{s:g}' for s in stood) or 'none'} of it, "
+          f"goes at {', '.join(f'{s:g}' for s in went) or 'none'}")
+    between = 0.5 * (max(stood) + min(went)) if stood and went and max(stood) < min(went) else np.nan
+    findings.check(f"{case}: level at which the caisson gives way", 100 * (between - 1), 1.5)
+
+
+def judge_wedge(findings, results):
+    force = results.gauge("force")
+    time, values = force.time, force["force z"]
+    late = time > TOUCH + 0.01
+    share = values[late] / (DENSITY * SPEED**3 * (time[late] - TOUCH))
+    findings.check("wedge: median of its force", 100 * (np.median(share) / COEFFICIENT - 1), 15)
+    print(f"wedge: mean {100 * (np.mean(share) / COEFFICIENT - 1):+.0f} %, single steps {share.min():.1f} to "
+          f"{share.max():.1f}, theory {COEFFICIENT:.1f}")
+    return time, values
+
+
+def draw(axes, results, wedge):
+    for axis, case, title in ((axes[0, 0], "slides", "1.03 of the level that slides"),
+                              (axes[0, 1], "topples", "1.03 of the level that tips")):
+        state = Results(results / level_name(case, SHARES[-1]))
+        draw_water(axis, state, state.times[-1])
+        draw_solids(axis, state, state.times[-1])
+        axis.set(title=f"{title}, t = {state.times[-1]:g} s", xlabel="x [m]", ylabel="z [m]", aspect="equal")
+    time, values = wedge
+    axes[1, 0].plot(1e3 * time, 1e-3 * values, ".", ms=3, label="computed, every step")
+    axes[1, 0].plot(1e3 * time, 1e-3 * COEFFICIENT * DENSITY * SPEED**3 * np.maximum(0, time - TOUCH), "k",
+                    label="Zhao & Faltinsen (1993)")
+    axes[1, 0].set(title="Wedge", xlabel="t [ms]", ylabel="force [kN/m]", ylim=(0, 150))
+    axes[1, 0].legend(frameon=False)
+    if (results / "debris").exists():
+        state = Results(results / "debris")
+        time = state.times[int(np.argmin(np.abs(np.asarray(state.times) - 1.75)))]
+        draw_water(axes[1, 1], state, time)
+        draw_solids(axes[1, 1], state, time)
+        axes[1, 1].set(title=f"debris, t = {time:g} s", xlabel="x [m]", ylabel="z [m]", aspect="equal")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--run", metavar="PROGRAM")
+    parser.add_argument("--results", type=Path, default=Path("results"))
+    parser.add_argument("--picture", type=Path, default=Path("bodies_in_water.png"))
+    arguments = parser.parse_args()
+    levels = {"slides": sliding_level(), "topples": tipping_level()}
+    if arguments.run:
+        for case, level in levels.items():
+            for share in SHARES:
+                run(arguments.run, CASE / f"{case}.toml", arguments.results / level_name(case, share),
+                    f"water.body.0.shape.box.upper=[2.0, {share * level:.6f}]")
+        for case in ("wedge", "debris"):
+            run(arguments.run, CASE / f"{case}.toml", arguments.results / case)
+    findings = Findings()
+    for case, level in levels.items():
+        judge_level(findings, case, level, arguments.results)
+    wedge = judge_wedge(findings, Results(arguments.results / "wedge"))
+    figure, axes = plt.subplots(2, 2, figsize=(11, 6), layout="constrained")
+    draw(axes, arguments.results, wedge)
+    arguments.picture.parent.mkdir(parents=True, exist_ok=True)
+    figure.savefig(arguments.picture, dpi=120)
+    print(f"picture: {arguments.picture}")
+    return findings.exit_code
+
+
+if __name__ == "__main__":
+    sys.exit(main())
