@@ -18,6 +18,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double closing = 0.5;
 /// Share of an overlap that a step takes back.
 constexpr double opening = 0.1;
+/// Between bodies in water: two surfaces in one cell, or on both its sides, are none.
+constexpr double cells_between = 1.25;
 constexpr double far_out = 10.0;  ///< of a body's size
 constexpr int sweeps = 200;
 constexpr double tolerance = 1e-12;  ///< of the largest speed
@@ -32,7 +34,7 @@ SolidCollisions::SolidCollisions(const Grid<D>& grid, bool in_water,
     const int axis = axis_in_space<D>(a);
     const auto u = static_cast<std::size_t>(axis);
     room.lower[u] = grid.lower()[a], room.upper[u] = grid.upper()[a];
-    if (in_water) margin_ = std::max(margin_, 0.5 * grid.spacing()[a]);
+    if (in_water) margin_ = std::max(margin_, cells_between * grid.spacing()[a]);
     for (int side = 0; side < 2; ++side) {
       if (grid.wall(a, side) == Wall::open || grid.periodic(a)) continue;
       const int cell = side == 0 ? 0 : grid.cells()[a] - 1;

@@ -90,9 +90,8 @@ std::vector<std::string> World<D>::warnings() const {
   std::vector<std::string> all = soil_ ? soil_->warnings() : std::vector<std::string>{};
   if (flow_ && flow_->solids().moving())
     all.emplace_back(
-        "a [[solid]] moves through water. Pistons that stay in it, bodies under water and small "
-        "heave through the surface have been checked; bodies that enter or leave through the "
-        "surface have forces that cannot be trusted, and may end the run "
+        "a [[solid]] moves through water. Where it enters or leaves through the surface single steps "
+        "have several times the right force; take means over some of them "
         "(docs/methods/bodies-in-water.md).");
   return all;
 }

@@ -86,6 +86,9 @@ TEST_F(Resume, AfterKillsGivesTheSameBitsOfABodyInOneWater) {
 TEST_F(Resume, AfterKillsGivesTheSameBitsOfABodyThatIsFreeInOneWater) {
   kill_and_resume("one_water_free_2d", 2, 2, 10);
 }
+TEST_F(Resume, AfterKillsGivesTheSameBitsOfABodyThatIsFreeInWater) {
+  kill_and_resume("free_2d", 2, 2, 11);
+}
 TEST_F(Resume, AfterKillsGivesTheSameBitsOfSoilAlone) { kill_and_resume("soil_3d", 1, 3, 4); }
 TEST_F(Resume, AfterKillsGivesTheSameBitsOfSplitPoints) { kill_and_resume("drawn", 2, 2, 6); }
 /// On one rank: the direct solver of implicit steps sums up what other ranks send as it arrives.
