@@ -24,8 +24,8 @@ class SolidCollisions {
   };
 
   /// Between bodies in water there must be room for it: they keep 1.25 cells from one another,
-  /// for two surfaces in one are none, and half a cell from the sides. Those that start closer keep what they
-  /// have. `start`: where the bodies are at time zero.
+  /// for two surfaces in one are none, and half a cell from the sides. Those that start closer keep
+  /// what they have. `start`: where the bodies are at time zero.
   template <int D>
   SolidCollisions(const Grid<D>& grid, bool in_water, const std::vector<RigidPose>& start);
 

@@ -90,7 +90,8 @@ std::vector<std::string> World<D>::warnings() const {
   std::vector<std::string> all = soil_ ? soil_->warnings() : std::vector<std::string>{};
   if (flow_ && flow_->solids().moving())
     all.emplace_back(
-        "a [[solid]] moves through water. Where it enters or leaves through the surface single steps "
+        "a [[solid]] moves through water. Where it enters or leaves through the surface single "
+        "steps "
         "have several times the right force; take means over some of them "
         "(docs/methods/bodies-in-water.md).");
   return all;
