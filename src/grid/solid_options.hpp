@@ -28,8 +28,9 @@ struct SolidOptions {
   Shape shape;                   ///< where it is at time zero
   std::optional<Point3> centre;  ///< what it turns about; else the shape's centre of mass [m]
   std::variant<FixedSolid, PrescribedSolid, FreeSolid> motion;
-  double friction = 0.0;  ///< Coulomb's coefficient [-]; infinite: soil sticks while it presses
-  double adhesion = 0.0;  ///< shear strength of the contact without pressure [Pa]
+  double friction = 0.0;     ///< Coulomb's coefficient [-]; infinite: soil sticks while it presses
+  double adhesion = 0.0;     ///< shear strength of the contact without pressure [Pa]
+  bool sharp_edges = false;  ///< soil beyond its edges is not held by those beside them
 };
 
 }  // namespace mudlark

@@ -170,6 +170,13 @@ double read_friction(Section& section) {
       not_negative("friction cannot push", "0.4 is tan 22 degrees; \"rough\" never slips."), 0.0);
 }
 
+void read_contact(Section& section, SolidOptions& solid) {
+  solid.adhesion = section.number(
+      "adhesion", quantity::stress,
+      not_negative("the shear strength of the contact without pressure"), solid.adhesion);
+  solid.sharp_edges = section.choice<bool>("edges", {{"smooth", false}, {"sharp", true}}, false);
+}
+
 /// `rubs`: there is something that it may slide along.
 SolidOptions read_solid(Section& section, bool in_soil, bool rubs,
                         std::vector<std::string>& names) {
@@ -186,10 +193,7 @@ SolidOptions read_solid(Section& section, bool in_soil, bool rubs,
     solid.friction = read_friction(section);
   else
     section.forbid("friction_coefficient", "it is for soil and for free bodies");
-  if (in_soil)
-    solid.adhesion = section.number(
-        "adhesion", quantity::stress,
-        not_negative("the shear strength of the contact without pressure"), solid.adhesion);
+  if (in_soil) read_contact(section, solid);
   return solid;
 }
 
@@ -202,7 +206,8 @@ FlowSolid read_flow_solid(Section& section, const SolidOptions& solid, const Flo
   if (moves && flow.porous.size() > 0)
     section.fail("motion", "a body that moves in a case with [[porous]] ground is not there yet",
                  "Write \"fixed\", or make the ground [[soil]] (coupling.mode = \"unified\").");
-  if (!in_soil) section.forbid("adhesion", "it is for soil; `wall` says how water passes the body");
+  for (const char* key : {"adhesion", "edges"})
+    if (!in_soil) section.forbid(key, "it is for soil; `wall` says how water passes the body");
   body.no_slip = section.choice<bool>("wall", {{"slip", false}, {"no-slip", true}}, false);
   if (body.no_slip && !std::holds_alternative<FixedSolid>(solid.motion))
     section.fail("wall", "water has friction on fixed bodies only");

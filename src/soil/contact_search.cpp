@@ -10,6 +10,11 @@ namespace {
 
 /// Gap up to which a point is watched, in point spacings.
 constexpr double watched_gap = 0.1;
+/// How far beside a contact its faces may lie, on a surface of any direction [cells].
+constexpr double widest_reach = 2.5;
+/// A contact keeps all its faces where less than this share of their weights is in front of the
+/// body: next to a needle.
+constexpr double least_covered = 0.05;
 
 /// Share of the grains in the pressure on a surface.
 template <int D>
@@ -41,6 +46,38 @@ double thickness_of(const SoilParticles<D>& points, std::size_t p, const Vec<D>&
   return std::clamp(std::sqrt(std::max(0.0, squared)), 0.1 * cell, cell);
 }
 
+/// Two directions along a surface, in the plane one; in what is the same all along y those of the
+/// plane.
+template <int D>
+std::array<Vec<D>, D - 1> along(const Vec<D>& normal) {
+  if constexpr (D == 2) {
+    return {Vec<2>{{-normal[1], normal[0]}}};
+  } else {
+    const int axis = std::abs(normal[1]) < 0.9 ? 1 : 0;
+    Vec<3> first = -normal[axis] * normal;
+    first[axis] += 1.0;
+    first *= 1.0 / norm(first);
+    const Vec<3> second{{normal[1] * first[2] - normal[2] * first[1],
+                         normal[2] * first[0] - normal[0] * first[2],
+                         normal[0] * first[1] - normal[1] * first[0]}};
+    return {first, second};
+  }
+}
+
+/// How far inside the body a place is that lies `beside` a contact along the surface and half a
+/// cell under it [cells]. Behind the sides of the domain, and up to half a cell before them, the
+/// body is as it is there: one that ends at a side has no edge.
+template <int D>
+double depth_at(const Solid& solid, const Grid<D>& grid, const Vec<D>& contact,
+                const Vec<D>& normal, const Vec<D>& beside) {
+  const double cell = grid.smallest_spacing();
+  const Vec<D> lower = grid.lower(), upper = grid.upper();
+  Vec<D> place = contact + beside - 0.5 * cell * normal;
+  for (int a = 0; a < D; ++a)
+    place[a] = std::clamp(place[a], lower[a] + 0.5 * cell, upper[a] - 0.5 * cell);
+  return -solid.distance(to_point3(place)).distance / cell;
+}
+
 }  // namespace
 
 /// Does a point touch the body, or may it in this step? Sets all that depends on their places. For
@@ -59,6 +96,7 @@ bool SolidContact<D>::touch(double dt, const Solid& solid, const SoilParticles<D
   const double adhesion = solid.options().adhesion;
   if (gap > (adhesion > 0.0 ? 1.0 : watched_gap) * thickness) return false;
   contact.place = position - 0.5 * thickness * contact.normal;
+  contact.places.fill(contact.place);
   contact.thickness = thickness;
   contact.approach = std::max(0.0, gap) / dt;
   const double area = volume / thickness;
@@ -72,39 +110,92 @@ bool SolidContact<D>::touch(double dt, const Solid& solid, const SoilParticles<D
   return true;
 }
 
+/// Does the surface go on around a contact as far as its faces lie, hardly bent?
+template <int D>
+bool SolidContact<D>::far_from_edges(const Solid& solid, const Contact& contact) const {
+  const double cell = grid_->smallest_spacing();
+  const auto tangents = along(contact.normal);
+  for (int corner = 0; corner < (1 << (D - 1)); ++corner) {
+    Vec<D> beside{};
+    for (int a = 0; a < D - 1; ++a)
+      beside += ((corner >> a & 1) ? 1.0 : -1.0) * widest_reach * cell *
+                tangents[static_cast<std::size_t>(a)];
+    if (depth_at(solid, *grid_, contact.place, contact.normal, beside) < 0.25) return false;
+  }
+  return true;
+}
+
+/// Takes faces that are not in front of the body out of the weights from `first` on. A node beyond
+/// the body's edge, seen along the normal, does not count; one half a cell within it counts in
+/// full. The points along the edge hold all faces that they reach, and with those beyond it the
+/// body was a cell wider all round (decision 0089). The impulse acts at the centre of what is left.
+template <int D>
+void SolidContact<D>::keep_covered(int component, std::size_t first, const Solid& solid,
+                                   Contact& contact) {
+  double sum = 0.0;
+  Vec<D> centre{};
+  for (std::size_t i = first; i < nodes_.size(); ++i) {
+    const Vec<D> away = node_places_[i - first] - contact.place;
+    const Vec<D> beside = away - dot(away, contact.normal) * contact.normal;
+    const double depth = depth_at(solid, *grid_, contact.place, contact.normal, beside);
+    covered_[i - first] = nodes_[i].weight * std::clamp(2.0 * depth, 0.0, 1.0);
+    sum += covered_[i - first];
+    centre += covered_[i - first] * node_places_[i - first];
+  }
+  if (sum < least_covered) return;
+  for (std::size_t i = first; i < nodes_.size(); ++i) nodes_[i].weight = covered_[i - first] / sum;
+  contact.places[static_cast<std::size_t>(component)] = 1.0 / sum * centre;
+}
+
 /// The faces that hear of a contact, and how much: the edge of a point moves as the place half a
 /// thickness into the soil does, less what the point itself stretches,
 /// W(x_p + d/2 n) - d n . grad W(x_p).
 /// Forces shared out by these weights meet the stress of the points where the points have it: a
 /// uniform stress stays uniform up to the body. Weights at the edge itself would not, as points sum
 /// up the divergence of stress and do not integrate it; faces that the outermost points hardly
-/// reach would need stresses there that oscillate (decision 0016).
+/// reach would need stresses there that oscillate (decision 0050).
 template <int D>
-void SolidContact<D>::list_nodes(const Vec<D>& position, Contact& contact) {
+void SolidContact<D>::list_nodes(const Vec<D>& position, const Solid& solid, Contact& contact) {
   const Vec<D> per_spacing = inverse(grid_->spacing());
   const Vec<D> deeper = position + 0.5 * contact.thickness * contact.normal;
-  const auto add = [&](std::size_t first, std::ptrdiff_t at, double weight) {
+  const bool whole = !solid.options().sharp_edges || far_from_edges(solid, contact);
+  const auto add = [&](std::size_t first, std::ptrdiff_t at, double weight, const Vec<D>& place) {
     if (weight == 0.0) return;
     for (std::size_t i = first; i < nodes_.size(); ++i)
       if (nodes_[i].at == at) {
         nodes_[i].weight += weight;
         return;
       }
+    node_places_[nodes_.size() - first] = place;
     nodes_.push_back({at, weight});
   };
   with_kernel(kernel_, [&]<class K>(K) {
-    const PointSplines<D, K> own(in_cells(*grid_, per_spacing, position));
-    const PointSplines<D, K> deep(in_cells(*grid_, per_spacing, deeper));
-    PointSplines<D, K>::template static_for<D>([&]<int Component>() {
+    using Splines = PointSplines<D, K>;
+    const Vec<D> own_cells = in_cells(*grid_, per_spacing, position);
+    const Vec<D> deep_cells = in_cells(*grid_, per_spacing, deeper);
+    const Splines own(own_cells), deep(deep_cells);
+    Splines::template static_for<D>([&]<int Component>() {
       const std::size_t first = nodes_.size();
       contact.nodes[Component] = first;
+      const auto place_of = [&](const Vec<D>& from, const Vec<D>& to_first, const Vec<D>& count) {
+        Vec<D> place = from;
+        for (int a = 0; a < D; ++a) place[a] += (to_first[a] + count[a]) * grid_->spacing()[a];
+        return place;
+      };
+      const Vec<D> deep_first = deep.template first_from_point<Component>(deep_cells);
       deep.template for_each_node<Component>(
           *grid_, per_spacing,
-          [&](std::ptrdiff_t at, double w, const Vec<D>&, const Vec<D>&) { add(first, at, w); });
-      own.template for_each_node<Component>(
-          *grid_, per_spacing, [&](std::ptrdiff_t at, double, const Vec<D>& g, const Vec<D>&) {
-            add(first, at, -contact.thickness * dot(g, contact.normal));
+          [&](std::ptrdiff_t at, double w, const Vec<D>&, const Vec<D>& count) {
+            add(first, at, w, place_of(deeper, deep_first, count));
           });
+      const Vec<D> own_first = own.template first_from_point<Component>(own_cells);
+      own.template for_each_node<Component>(
+          *grid_, per_spacing,
+          [&](std::ptrdiff_t at, double, const Vec<D>& g, const Vec<D>& count) {
+            add(first, at, -contact.thickness * dot(g, contact.normal),
+                place_of(position, own_first, count));
+          });
+      if (!whole) keep_covered(Component, first, solid, contact);
     });
   });
   contact.nodes[D] = nodes_.size();
@@ -131,7 +222,7 @@ void SolidContact<D>::find(double dt, const std::vector<BodyConstants>& constant
         for (int a = 0; a < D && !known; ++a) contact.impulse[a] = dt * points.contact_force[a][p];
         if (!known) contact.seal = dt * points.contact_force[D][p];
         known = true;
-        list_nodes(points.position_of(p), contact);
+        list_nodes(points.position_of(p), solids[s], contact);
         contacts_.push_back(contact);
       }
     }
@@ -142,8 +233,12 @@ void SolidContact<D>::find(double dt, const std::vector<BodyConstants>& constant
 
 template bool SolidContact<2>::touch(double, const Solid&, const SoilParticles<2>&, Contact&) const;
 template bool SolidContact<3>::touch(double, const Solid&, const SoilParticles<3>&, Contact&) const;
-template void SolidContact<2>::list_nodes(const Vec<2>&, Contact&);
-template void SolidContact<3>::list_nodes(const Vec<3>&, Contact&);
+template bool SolidContact<3>::far_from_edges(const Solid&, const Contact&) const;
+template void SolidContact<3>::keep_covered(int, std::size_t, const Solid&, Contact&);
+template bool SolidContact<2>::far_from_edges(const Solid&, const Contact&) const;
+template void SolidContact<2>::keep_covered(int, std::size_t, const Solid&, Contact&);
+template void SolidContact<2>::list_nodes(const Vec<2>&, const Solid&, Contact&);
+template void SolidContact<3>::list_nodes(const Vec<3>&, const Solid&, Contact&);
 template void SolidContact<2>::find(double, const std::vector<BodyConstants>&,
                                     const std::vector<Solid>&, std::vector<SoilParticles<2>>&);
 template void SolidContact<3>::find(double, const std::vector<BodyConstants>&,

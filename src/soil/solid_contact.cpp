@@ -210,7 +210,12 @@ void SolidContact<D>::give(const Contact& contact, const Vec<D>& impulse, double
   const Eigen::Vector3d back = -to_space(impulse);
   Load& load = loads_[contact.solid];
   load.impulse += back;
-  load.moment += (to_space(contact.place) - solid.centre()).cross(back);
+  for (int d = 0; d < D; ++d) {
+    Vec<D> part{};
+    part[d] = -impulse[d];
+    load.moment += (to_space(contact.places[static_cast<std::size_t>(d)]) - solid.centre())
+                       .cross(to_space(part));
+  }
 }
 
 /// An impulse that every contact may give at once without any of them giving too much: the inverse
@@ -279,7 +284,10 @@ template <int D>
 void SolidContact<D>::sweep(const std::vector<Solid>& solids) {
   for (Contact& contact : contacts_) {
     const Solid& solid = solids[contact.solid];
-    const Vec<D> body = to_axes<D>(solid.velocity_at(to_space(contact.place)));
+    Vec<D> body;
+    for (int d = 0; d < D; ++d)
+      body[d] =
+          to_axes<D>(solid.velocity_at(to_space(contact.places[static_cast<std::size_t>(d)])))[d];
     const Vec<D> miss = at_contact(velocity_, contact) - body + contact.approach * contact.normal;
     const Vec<D> impulse = bounded(contact.impulse - contact.stiffness * miss, contact);
     const double leak = contact.wet ? dot(at_contact(slip_, contact), contact.normal) : 0.0;

@@ -50,7 +50,9 @@ class SolidContact {
   struct Contact {
     std::size_t body = 0, point = 0, solid = 0;
     bool wet = false;
-    Vec<D> place{}, normal{};     ///< edge of the point, and out of the body
+    Vec<D> place{}, normal{};  ///< edge of the point, and out of the body
+    /// Where the components of its impulse act: `place`, or beside it at an edge of the body.
+    std::array<Vec<D>, D> places{};
     double thickness = 0.0;       ///< of the point [m]
     double approach = 0.0;        ///< speed along -normal that closes the gap in the step [m/s]
     double adhesion = 0.0;        ///< largest impulse along the surface without pressure [N s]
@@ -70,7 +72,9 @@ class SolidContact {
   void find(double dt, const std::vector<BodyConstants>& constants,
             const std::vector<Solid>& solids, std::vector<SoilParticles<D>>& bodies);
   bool touch(double dt, const Solid& solid, const SoilParticles<D>& points, Contact& contact) const;
-  void list_nodes(const Vec<D>& position, Contact& contact);
+  bool far_from_edges(const Solid& solid, const Contact& contact) const;
+  void keep_covered(int component, std::size_t first, const Solid& solid, Contact& contact);
+  void list_nodes(const Vec<D>& position, const Solid& solid, Contact& contact);
   bool prepare(double dt, const std::vector<BodyConstants>& constants, const IndexBox<D>& active,
                std::vector<Solid>& solids, std::vector<SoilParticles<D>>& bodies,
                const NodeField<NodeSums, D>& sums);
@@ -105,6 +109,9 @@ class SolidContact {
   bool any_ = false;   ///< contacts on any rank
   std::vector<Contact> contacts_;
   std::vector<Node> nodes_;
+  /// Of one component of one contact: nodes of two stencils and a half, and their new weights.
+  std::array<Vec<D>, 128> node_places_{};
+  std::array<double, 128> covered_{};
   std::vector<Load> loads_;  ///< on the bodies by this rank's contacts
   std::vector<double> reduced_;
   /// With u the velocity of the grains, r that of the water past them, P an impulse on the grains

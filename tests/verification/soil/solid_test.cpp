@@ -140,7 +140,8 @@ TEST(Solid, RollsDownASlopeAsADisc) {
 
 /// A body that hits a block of soil in free space, and what becomes of their momentum.
 template <int D>
-void collide(const Shape& shape, double friction, const char* walls, Transfer transfer) {
+void collide(const Shape& shape, double friction, const char* walls, Transfer transfer,
+             bool sharp = false) {
   const Grid<D> grid =
       make_grid<D>(D == 2 ? std::array<int, 3>{24, 24, 1} : std::array<int, 3>{16, 16, 20}, 0.05,
                    walls, 0.0, MPI_COMM_WORLD);
@@ -148,6 +149,7 @@ void collide(const Shape& shape, double friction, const char* walls, Transfer tr
       make_soil(D, {0.2, D == 2 ? -1.0 : 0.2, 0.2}, {0.6, D == 2 ? 1.0 : 0.6, 0.5}, false);
   options.transfer = transfer;
   SolidOptions solid = make_solid(shape);
+  solid.sharp_edges = sharp;
   FreeSolid motion;
   motion.density = 3000.0;
   motion.velocity = {1.0, 0.0, -3.0};
@@ -182,8 +184,9 @@ TEST(Solid, LosesToTheSoilExactlyTheMomentumThatTheSoilGains) {
     collide<2>({SphereShape{{0.4, 0.0, 0.61}, 0.1, true}}, 0.5, "oooo", transfer);
     collide<3>({SphereShape{{0.4, 0.42, 0.61}, 0.1}}, 0.5, "oooooo", transfer);
   }
-  collide<2>({PolygonShape{{{0.3, 0.55}, {0.5, 0.52}, {0.4, 0.7}}}}, infinity, "oooo",
-             Transfer::flip);
+  for (const bool sharp : {false, true})
+    collide<2>({PolygonShape{{{0.3, 0.55}, {0.5, 0.52}, {0.4, 0.7}}}}, infinity, "oooo",
+               Transfer::flip, sharp);
 }
 
 // Heavier than the soil under it or lighter: at rest the soil carries the weight.
@@ -251,9 +254,37 @@ TEST(Solid, SealsThePoresUnderIt) {
   }
 }
 
+// A smooth strip footing on clay, eight cells per half width: (2 + pi) s_u over the width of the
+// body, not of one that is wider by a cell. An edge within a cell is met to half a cell.
+TEST(Solid, PressesClayOverItsOwnWidth) {
+  for (const double half : {1.0, 0.9375}) {
+    const Grid<2> grid = make_grid<2>({28, 16, 1}, 0.125, "ssns", 0.0, MPI_COMM_WORLD);
+    SoilOptions options = make_soil(2, {0, -1, 0}, {3.5, 1, 1.75}, false);
+    options.bodies[0].law = TrescaOptions{5e6, 0.49, 10e3};
+    options.bodies[0].strain = StrainMeasure::jaumann;
+    options.damping = 0.3;
+    SolidOptions footing = make_solid({BoxShape{{-2, -infinity, 1.75}, {half, infinity, 2.0}}});
+    footing.sharp_edges = true;
+    PrescribedSolid motion;
+    motion.translation[2] = Varying(-0.02);
+    footing.motion = motion;
+    options.solids.push_back(footing);
+    SoilSolver<2> soil(grid, options);
+    soil.initialise();
+    const double dt = soil.stable_step();
+    double time = 0.0;
+    run(soil, time, static_cast<int>(std::ceil(0.8 / dt)), dt);
+    const double factor = soil.solids()[0].force()[2] / (10e3 * half);
+    std::printf("footing of half width %g: N_c %.3f, exact 5.142 (%+.1f %%)\n", half, factor,
+                100 * (factor / (2.0 + std::numbers::pi) - 1));
+    const double tolerance = 0.03 + (half < 1.0 ? 0.0625 / half : 0.0);
+    EXPECT_NEAR(factor, 2.0 + std::numbers::pi, tolerance * 5.142);
+  }
+}
+
 // The same problem one cell thick in space.
 TEST(Solid, DoesTheSameInSpaceAsInThePlane) {
-  const auto footing = []<int D>(std::integral_constant<int, D>) {
+  const auto footing = []<int D>(std::integral_constant<int, D>, bool sharp) {
     const Grid<D> grid =
         make_grid<D>(D == 2 ? std::array<int, 3>{16, 12, 1} : std::array<int, 3>{16, 1, 12}, 0.1,
                      D == 2 ? "ssns" : "ssssns", 9.81, MPI_COMM_WORLD);
@@ -270,6 +301,7 @@ TEST(Solid, DoesTheSameInSpaceAsInThePlane) {
     body.centre = Point3{0.0, 0.0, 0.8};
     body.friction = 0.4;
     body.adhesion = 100.0;
+    body.sharp_edges = sharp;
     options.solids.push_back(body);
     SoilSolver<D> soil(grid, options);
     soil.initialise();
@@ -280,12 +312,14 @@ TEST(Solid, DoesTheSameInSpaceAsInThePlane) {
     return Eigen::Vector3d(scale * solid.force()[0], scale * solid.moment()[1],
                            scale * solid.force()[2]);
   };
-  const Eigen::Vector3d plane = footing(std::integral_constant<int, 2>{});
-  const Eigen::Vector3d space = footing(std::integral_constant<int, 3>{});
-  std::printf("force in the plane %.9g %.9g %.9g, in space %.9g %.9g %.9g\n", plane[0], plane[1],
-              plane[2], space[0], space[1], space[2]);
-  EXPECT_GT(plane[2], 100.0);
-  EXPECT_LT((plane - space).norm(), 1e-8 * plane.norm());
+  for (const bool sharp : {false, true}) {
+    const Eigen::Vector3d plane = footing(std::integral_constant<int, 2>{}, sharp);
+    const Eigen::Vector3d space = footing(std::integral_constant<int, 3>{}, sharp);
+    std::printf("force in the plane %.9g %.9g %.9g, in space %.9g %.9g %.9g\n", plane[0], plane[1],
+                plane[2], space[0], space[1], space[2]);
+    EXPECT_GT(plane[2], 100.0);
+    EXPECT_LT((plane - space).norm(), 1e-8 * plane.norm());
+  }
 }
 
 }  // namespace
