@@ -7,9 +7,6 @@
 #include <optional>
 #include <set>
 
-#include "grid/halo.hpp"
-#include "grid/surface_places.hpp"
-
 namespace mudlark {
 namespace {
 
@@ -24,6 +21,14 @@ constexpr double far_out = 10.0;  ///< of a body's size
 constexpr int sweeps = 200;
 constexpr double tolerance = 1e-12;  ///< of the largest speed
 
+/// Parts that are cut away up to the surface leave one with no body on either side.
+bool has_body_under(const RigidPose& pose, const Eigen::Vector3d& on,
+                    const Eigen::Vector3d& normal) {
+  if (!std::holds_alternative<DifferenceShape>(pose.shape().form)) return true;
+  const double little = 1e-6 * (on - pose.centre()).norm();
+  return pose.distance(to_point(on - little * normal)).distance < 0.0;
+}
+
 }  // namespace
 
 template <int D>
@@ -34,12 +39,11 @@ SolidCollisions::SolidCollisions(const Grid<D>& grid, bool in_water,
     const int axis = axis_in_space<D>(a);
     const auto u = static_cast<std::size_t>(axis);
     room.lower[u] = grid.lower()[a], room.upper[u] = grid.upper()[a];
-    if (in_water) margin_ = std::max(margin_, cells_between * grid.spacing()[a]);
+    for (int i = 0; in_water && i < grid.cells()[a]; ++i)
+      margin_ = std::max(margin_, cells_between * grid.width(a, i));
     for (int side = 0; side < 2; ++side) {
       if (grid.wall(a, side) == Wall::open || grid.periodic(a)) continue;
-      const int cell = side == 0 ? 0 : grid.cells()[a] - 1;
-      // Not every rank knows the width of that cell, but all must agree.
-      const double width = max_over_ranks(grid, grid.touches(a, side) ? grid.width(a, cell) : 0.0);
+      const double width = grid.width(a, side == 0 ? 0 : grid.cells()[a] - 1);
       sides_.push_back({axis, side == 0 ? room.lower[u] : room.upper[u], side == 0 ? 1.0 : -1.0,
                         grid.wall(a, side) == Wall::friction ? grid.wall_friction(a, side) : 0.0,
                         in_water ? 0.5 * width : 0.0});
@@ -49,8 +53,8 @@ SolidCollisions::SolidCollisions(const Grid<D>& grid, bool in_water,
   for (const RigidPose& pose : start) {
     surface_.push_back(surface_places(pose.shape(), room, D));
     double farthest = 0.0;
-    for (const Vector& place : surface_.back())
-      farthest = std::max(farthest, (place - pose.start_centre()).norm());
+    for (const SurfacePlace& one : surface_.back())
+      farthest = std::max(farthest, (one.place - pose.start_centre()).norm());
     farthest_.push_back(farthest);
   }
   find_gaps(start);
@@ -66,7 +70,7 @@ void SolidCollisions::find_gaps(const std::vector<RigidPose>& start) {
       const bool side = o >= start.size();
       double& kept = gap(b, o);
       if (side) kept = sides_[o - start.size()].margin;
-      for_each_touch(poses, b, o, kept, [&](const Vector&, const SurfaceDistance& away) {
+      for_each_touch(poses, b, o, kept, [&](const SurfacePlace&, const SurfaceDistance& away) {
         kept = std::min(kept, away.distance);
       });
       if (!side && o < b) kept = gap(o, b) = std::min(kept, gap(o, b));
@@ -80,18 +84,21 @@ void SolidCollisions::for_each_touch(const std::vector<const RigidPose*>& poses,
                                      std::size_t other, double reach, F&& f) const {
   if (body == other) return;
   const RigidPose& pose = *poses[body];
-  const auto all = [&](auto&& distance) {
-    const auto try_place = [&](const Vector& place) {
-      const std::optional<SurfaceDistance> away = distance(place);
-      if (away && away->distance <= reach) f(place, *away);
+  const auto all = [&](auto&& close, auto&& distance) {
+    const auto try_place = [&](const SurfacePlace& at) {
+      if (!close(at.place)) return;
+      const SurfaceDistance away = distance(at.place);
+      if (away.distance <= reach) f(at, away);
     };
-    for (const Vector& at : surface_[body]) try_place(pose.place(at));
+    for (const SurfacePlace& at : surface_[body])
+      try_place({pose.place(at.place), pose.turn() * at.normal});
     // Of a round body the very place that touches: the nearest to one far out on that side.
-    if (const std::optional<SurfaceDistance> way = distance(pose.centre())) {
-      const Vector out = pose.centre() - far_out * farthest_[body] * to_vector(way->normal);
-      const SurfaceDistance back = pose.distance(to_point(out));
-      try_place(out - back.distance * to_vector(back.normal));
-    }
+    const Vector way = to_vector(distance(pose.centre()).normal);
+    const Vector out = pose.centre() - far_out * farthest_[body] * way;
+    const SurfaceDistance back = pose.distance(to_point(out));
+    const Vector round = out - back.distance * to_vector(back.normal);
+    if (has_body_under(pose, round, to_vector(back.normal)))
+      try_place({round, to_vector(back.normal)});
   };
   if (other >= poses.size()) {
     const Side& side = sides_[other - poses.size()];
@@ -100,10 +107,11 @@ void SolidCollisions::for_each_touch(const std::vector<const RigidPose*>& poses,
     if (nearest - side.inward * side.place > reach) return;
     SurfaceDistance away{0.0, {0.0, 0.0, 0.0}};
     away.normal[u] = side.inward;
-    all([&](const Vector& place) -> std::optional<SurfaceDistance> {
-      away.distance = side.inward * (place[side.axis] - side.place);
-      return away;
-    });
+    all([](const Vector&) { return true; },
+        [&](const Vector& place) {
+          away.distance = side.inward * (place[side.axis] - side.place);
+          return away;
+        });
     return;
   }
   const RigidPose& against = *poses[other];
@@ -112,10 +120,31 @@ void SolidCollisions::for_each_touch(const std::vector<const RigidPose*>& poses,
     if (pose.box().lower[a] > against.box().upper[a] + wide ||
         pose.box().upper[a] < against.box().lower[a] - wide)
       return;
-  all([&](const Vector& place) -> std::optional<SurfaceDistance> {
-    if (!against.near(to_point(place), wide)) return {};
-    return against.distance(to_point(place));
-  });
+  all([&](const Vector& place) { return against.near(to_point(place), wide); },
+      [&](const Vector& place) { return against.distance(to_point(place)); });
+}
+
+/// The normal of what a place meets on another body, or nothing where it will not come closer than
+/// it may. Where two faces lie on each other that is the other's face. Else it is what the place
+/// will find after a step in which nothing stops it: a body that slides along another passes the
+/// places on that one's face; now its corner is nearest to them, at an angle, then its face is.
+std::optional<SolidCollisions::Vector> SolidCollisions::meets(const Body& other,
+                                                              const SurfacePlace& at,
+                                                              const Vector& velocity,
+                                                              const SurfaceDistance& away,
+                                                              double kept, double dt) {
+  constexpr double face_on_face = -0.998, from_the_side = -0.1;  // cosines
+  const RigidPose& pose = *other.pose;
+  const Vector now = to_vector(away.normal);
+  if (now.dot(at.normal) < face_on_face) return now;
+  const Vector moved =
+      velocity - other.velocity.velocity - other.velocity.spin.cross(at.place - pose.centre());
+  const Vector ahead = at.place + dt * moved;
+  const SurfaceDistance then = pose.distance(to_point(ahead));
+  const double allowed = std::min(0.0, (1.0 - opening) * (away.distance - kept));
+  const Vector normal = to_vector(then.normal);
+  if (then.distance - kept >= allowed || normal.dot(at.normal) > from_the_side) return {};
+  return normal;
 }
 
 void SolidCollisions::find_contacts(const std::vector<Body>& bodies, double dt) {
@@ -136,10 +165,17 @@ void SolidCollisions::find_contacts(const std::vector<Body>& bodies, double dt) 
           bodies[b].friction, side ? sides_[o - bodies.size()].friction : bodies[o].friction);
       const double reach = kept + 2.0 * dt * speed / closing + 1e-9 * farthest_[b];
       const std::size_t first = contacts_.size();
-      for_each_touch(poses, b, o, reach, [&](const Vector& place, const SurfaceDistance& away) {
+      for_each_touch(poses, b, o, reach, [&](const SurfacePlace& at, const SurfaceDistance& away) {
+        const Vector& place = at.place;
+        const Vector velocity = bodies[b].velocity.velocity +
+                                bodies[b].velocity.spin.cross(place - bodies[b].pose->centre());
+        const std::optional<Vector> normal =
+            side ? to_vector(away.normal) : meets(bodies[o], at, velocity, away, kept, dt);
+        const Vector on = place - away.distance * to_vector(away.normal);
+        if (!normal || (!side && !has_body_under(*poses[o], on, to_vector(away.normal)))) return;
         const double left = away.distance - kept;
-        contacts_.push_back({b, o, place, to_vector(away.normal),
-                             (left > 0.0 ? closing : opening) * left / dt, friction});
+        contacts_.push_back(
+            {b, o, place, *normal, (left > 0.0 ? closing : opening) * left / dt, friction});
       });
       keep_outermost(first);
     }

@@ -1,9 +1,11 @@
 #pragma once
 /// Rigid bodies against each other and against the domain's closed sides.
+#include <optional>
 #include <vector>
 
 #include "grid/grid.hpp"
 #include "grid/solid.hpp"
+#include "grid/surface_places.hpp"
 
 namespace mudlark {
 
@@ -54,6 +56,9 @@ class SolidCollisions {
   template <class F>
   void for_each_touch(const std::vector<const RigidPose*>& poses, std::size_t body,
                       std::size_t other, double reach, F&& f) const;
+  static std::optional<Vector> meets(const Body& other, const SurfacePlace& at,
+                                     const Vector& velocity, const SurfaceDistance& away,
+                                     double kept, double dt);
   double& gap(std::size_t body, std::size_t other) { return gaps_[body * others_ + other]; }
   bool relax(Contact& contact, const std::vector<Body>& bodies);
   void give(const Contact& contact, const Vector& impulse, const std::vector<Body>& bodies);
@@ -61,11 +66,11 @@ class SolidCollisions {
   double mobility(const Contact& contact, const Vector& way, const std::vector<Body>& bodies) const;
 
   std::vector<Side> sides_;
-  double margin_ = 0.0;                       ///< between bodies [m]
-  std::size_t others_ = 0;                    ///< bodies and sides
-  std::vector<std::vector<Vector>> surface_;  ///< places on each body where it starts [m]
-  std::vector<double> farthest_;              ///< of them from the body's centre [m]
-  std::vector<double> gaps_;                  ///< that bodies keep from the others [m]
+  double margin_ = 0.0;                             ///< between bodies [m]
+  std::size_t others_ = 0;                          ///< bodies and sides
+  std::vector<std::vector<SurfacePlace>> surface_;  ///< of each body where it starts
+  std::vector<double> farthest_;                    ///< of them from the body's centre [m]
+  std::vector<double> gaps_;                        ///< that bodies keep from the others [m]
   std::vector<Contact> contacts_;
   std::vector<RigidVelocity> now_;  ///< velocities of the iteration
   struct Load {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "grid/rigid_pose.hpp"
 #include "grid/shape_distance.hpp"
 
 namespace mudlark {
@@ -39,12 +40,21 @@ struct Lattice {
   }
 };
 
+/// Parts that are cut away up to the surface leave one with no body on either side.
+bool has_body_beside(const Shape& shape, const Eigen::Vector3d& on, double little) {
+  for (int way = 0; way < 27; ++way) {
+    const Eigen::Vector3d beside(way % 3 - 1, way / 3 % 3 - 1, way / 9 - 1);
+    if (distance_to(shape, to_point(on + little * beside)).distance < 0.0) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 /// The surface place nearest to a place outside is the corner for all places before a corner. A
 /// quarter (eighth) of a circle (sphere) of 1.5 (1.8) spacings always holds a lattice place.
-std::vector<Eigen::Vector3d> surface_places(const Shape& shape, const BoxShape& within,
-                                            int dimension) {
+std::vector<SurfacePlace> surface_places(const Shape& shape, const BoxShape& within,
+                                         int dimension) {
   BoxShape box = bounds(shape);
   for (std::size_t a = 0; a < 3; ++a) {
     if (dimension == 2 && a == 1) continue;
@@ -55,12 +65,13 @@ std::vector<Eigen::Vector3d> surface_places(const Shape& shape, const BoxShape& 
   const Lattice lattice(box, dimension);
   if (!(lattice.spacing > 0.0)) return {};
   const double band = (dimension == 2 ? 1.5 : 1.8) * lattice.spacing;
-  std::vector<Eigen::Vector3d> places;
+  std::vector<SurfacePlace> places;
+  const bool has_cuts = std::holds_alternative<DifferenceShape>(shape.form);
   std::set<std::array<long long, 3>> known;  // corners are found many times
   lattice.for_each_place([&](const Point3& place) {
     const SurfaceDistance away = distance_to(shape, place);
     if (away.distance < -0.6 * lattice.spacing || away.distance > band) return;
-    Eigen::Vector3d on;
+    Eigen::Vector3d on = Eigen::Vector3d::Zero();
     std::array<long long, 3> key{};
     for (std::size_t a = 0; a < 3; ++a) {
       const double x = place[a] - away.distance * away.normal[a];
@@ -68,7 +79,9 @@ std::vector<Eigen::Vector3d> surface_places(const Shape& shape, const BoxShape& 
       key[a] = std::llround(x / (1e-6 * lattice.spacing));
     }
     if (dimension == 2) on[1] = 0.0, key[1] = 0;
-    if (known.insert(key).second) places.push_back(on);
+    if (known.count(key) == 0 && (!has_cuts || has_body_beside(shape, on, 1e-5 * lattice.spacing)))
+      places.push_back({on, to_vector(away.normal)});
+    known.insert(key);
   });
   return places;
 }

@@ -48,7 +48,6 @@ bool moved_too_far(World<D>& world, const RunSettings& settings) {
          world.soil()->largest_displacement() > *settings.largest_displacement;
 }
 
-/// The lines of log.txt: what runs, how far it is every few seconds, how it ended.
 /// Water that takes ever shorter steps has gone wrong.
 template <int D>
 void check_hope(World<D>& world, double stable) {
@@ -61,6 +60,7 @@ void check_hope(World<D>& world, double stable) {
                   stable, fastest.speed, place_text(fastest.position)));
 }
 
+/// The lines of log.txt: what runs, how far it is every few seconds, how it ended.
 template <int D>
 class RunLog {
  public:

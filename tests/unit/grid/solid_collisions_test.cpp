@@ -60,9 +60,9 @@ struct Room {
   }
 };
 
-double corner_distance(const std::vector<Eigen::Vector3d>& places, const Eigen::Vector3d& corner) {
+double corner_distance(const std::vector<SurfacePlace>& places, const Eigen::Vector3d& corner) {
   double nearest = 1e300;
-  for (const Eigen::Vector3d& place : places) nearest = std::min(nearest, (place - corner).norm());
+  for (const SurfacePlace& one : places) nearest = std::min(nearest, (one.place - corner).norm());
   return nearest;
 }
 
@@ -142,6 +142,29 @@ TEST(SolidCollisions, ABoxTipsOverAnEdge) {
   const double arm2 = over * over + 0.25 * height * height;
   const double exact = gravity * over / (arm2 + (width * width + height * height) / 12.0);
   EXPECT_NEAR(room.solids[0].spin()[1], exact * 10 * dt, 0.01 * exact * 10 * dt);
+}
+
+/// Along a slab that is much longer than the box, whose surface is known by places of its own.
+TEST(SolidCollisions, ABoxThatIsThrownAlongASlabDoesNotTrip) {
+  FreeSolid motion = heavy(2000.0);
+  motion.velocity = {1.5, 0.0, 0.0};
+  Room<2> room({body("box", box(1.0, 1.0, 0.3, 0.2), motion, 0.1),
+                {"slab", box(0.0, 0.5, 8.0, 0.5), {}, FixedSolid{}, 0.0}},
+               {0.0, 0.0, -gravity});
+  room.run(1.6, 1e-3);
+  EXPECT_NEAR(room.solids[0].displacement()[0], 1.5 * 1.5 / (2.0 * 0.1 * gravity), 5e-3);
+  EXPECT_NEAR(room.solids[0].displacement()[2], 0.0, 1e-4);
+  EXPECT_LT(room.solids[0].rotation().norm(), 1e-3);
+}
+
+/// What is cut out of a body up to its top is open.
+TEST(SolidCollisions, ABallFallsIntoABasin) {
+  const Shape basin{DifferenceShape{{box(0.0, 0.0, 10.0, 4.0), box(2.0, 1.0, 6.0, 3.0)}}};
+  Room<2> room({body("ball", {SphereShape{{5.0, 0.0, 5.0}, 0.5, true}}, heavy(1000.0)),
+                {"basin", basin, {}, FixedSolid{}, 0.0}},
+               {0.0, 0.0, -gravity});
+  room.run(2.0, 2e-3);
+  EXPECT_NEAR(room.solids[0].centre()[2], 1.5, 0.01);
 }
 
 TEST(SolidCollisions, ABodyThatStartsInAWallMayStayThere) {
