@@ -78,15 +78,17 @@ void SolidBodies<D>::follow(const std::vector<Solid>& leaders) {
 template <int D>
 void SolidBodies<D>::collide(double time, double dt) {
   if (!collisions_) return;
-  std::vector<RigidPose> poses = poses_;
+  std::vector<RigidPose> ahead;
+  ahead.reserve(poses_.size());
   std::vector<SolidCollisions::Body> bodies;
   for (std::size_t b = 0; b < poses_.size(); ++b) {
-    RigidVelocity velocity;
+    bodies.push_back({&poses_[b], {}, options_[b].friction, nullptr});
     if (const auto* given = std::get_if<PrescribedSolid>(&options_[b].motion)) {
-      velocity = poses_[b].prescribed(*given, time, dt);
-      poses[b].move(velocity, dt);
+      bodies[b].velocity = poses_[b].prescribed(*given, time, dt);
+      ahead.push_back(poses_[b]);
+      ahead.back().move(bodies[b].velocity, dt);
+      bodies[b].pose = &ahead.back();
     }
-    bodies.push_back({&poses[b], velocity, options_[b].friction, nullptr});
   }
   for (Solid& solid : free_) {
     SolidCollisions::Body& body = bodies[*find(solid.options().name)];
@@ -128,9 +130,7 @@ void SolidBodies<D>::lead(std::vector<Solid>& leaders, double dt) const {
   for (Solid& leader : leaders) {
     const auto body = find(leader.options().name);
     if (!body || !leader.free()) continue;
-    RigidPose ahead = poses_[*body];
-    ahead.move(velocities_[*body], dt);
-    leader.place_at(ahead);
+    leader.place_ahead(poses_[*body], velocities_[*body], dt);
   }
 }
 

@@ -110,6 +110,11 @@ RigidVelocity RigidPose::prescribed(const PrescribedSolid& motion, double time, 
   return found;
 }
 
+void RigidPose::stand_where(const RigidPose& other) {
+  centre_ = other.centre_, turn_ = other.turn_, turned_ = other.turned_;
+  update_box();
+}
+
 void RigidPose::move(const RigidVelocity& motion, double dt) {
   centre_ += dt * motion.velocity;
   if (motion.spin.squaredNorm() > 0.0) {

@@ -55,6 +55,8 @@ class RigidPose {
   /// Velocity over a step of dt [s] from `time` on: given places are met at the end of the step,
   /// given velocities are those of its middle.
   RigidVelocity prescribed(const PrescribedSolid& motion, double time, double dt) const;
+  /// Where another pose of the same body is.
+  void stand_where(const RigidPose& other);
   /// Moves with a velocity for dt [s].
   void move(const RigidVelocity& motion, double dt);
 

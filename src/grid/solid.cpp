@@ -231,8 +231,9 @@ void Solid::move(double dt) {
   if (free()) spin_ = turning_ * angular_momentum;
 }
 
-void Solid::place_at(const RigidPose& pose) {
-  pose_ = pose;
+void Solid::place_ahead(const RigidPose& pose, const RigidVelocity& motion, double dt) {
+  pose_.stand_where(pose);
+  pose_.move(motion, dt);
   update_inertia();
 }
 

@@ -54,8 +54,8 @@ class Solid {
   void book(double dt);
   /// Moves with the present velocity.
   void move(double dt);
-  /// Stands at another place, as after move().
-  void place_at(const RigidPose& pose);
+  /// Stands where another pose will be that moves for dt [s], as after move().
+  void place_ahead(const RigidPose& pose, const RigidVelocity& motion, double dt);
   /// Stands still, until the forces on it or start() move it.
   void stop();
   /// Takes on its velocity of time zero; counts displacement and rotation from here where asked.

@@ -99,10 +99,17 @@ void read_place(Section& section, const CaseOptions& options, const Kind& kind,
 /// of = "NAME" of a rigid body.
 void read_solid_name(Section& section, const CaseOptions& options, GaugeOptions& gauge) {
   Section::Words names;
+  std::vector<std::string> led;  // those whose motion is given
+  const auto add = [&](const auto& solids) {
+    for (const auto& solid : solids) {
+      names.push_back(solid.name);
+      if (!std::holds_alternative<FreeSolid>(solid.motion)) led.push_back(solid.name);
+    }
+  };
   if (options.soil)
-    for (const SolidOptions& solid : options.soil->solids) names.push_back(solid.name);
-  if (options.flow && !options.soil)
-    for (const FlowSolid& solid : options.flow->solids) names.push_back(solid.name);
+    add(options.soil->solids);
+  else if (options.flow)
+    add(options.flow->solids);
   if (names.empty()) {
     section.has("of");
     return section.fail("quantity", "it measures a rigid body, and the case has no [[solid]]");
@@ -110,6 +117,10 @@ void read_solid_name(Section& section, const CaseOptions& options, GaugeOptions&
   std::vector<Choice<std::string>> choices;
   for (const std::string& name : names) choices.push_back({name, name});
   gauge.of = section.choice<std::string>("of", choices);
+  if (gauge.quantity == GaugeQuantity::solid_collision &&
+      std::find(led.begin(), led.end(), gauge.of) != led.end())
+    section.fail("of", "collisions are measured on free bodies, and its motion is given",
+                 "Name the free body that meets it: it gets the opposite force.");
 }
 
 /// of = "NAME" of a boundary that says something of pore water.

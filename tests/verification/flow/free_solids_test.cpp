@@ -200,6 +200,28 @@ TEST(FreeSolids, ABlockOnTheFloorSlidesByTheLawOfCoulomb) {
   }
 }
 
+/// In a shaft little wider than the circle the water answers with far more than the added mass of
+/// wide water, which only an added mass that grows can follow; a light circle rises without a jerk.
+TEST(FreeSolids, ALightCircleRisesInANarrowShaft) {
+  const double radius = 0.2;
+  FreeSolid motion = of_density(0.05 * rho);
+  motion.locked[0] = motion.locked_rotation[1] = true;
+  const Shape circle{SphereShape{{0.25, 0.0, 0.4}, radius, true}};
+  FlowOptions options;
+  options.viscosity = 0.0;
+  options.bodies = {water_box({-1.0, -1.0, -1.0}, {9.0, 9.0, 1.4})};
+  options.solids = {free_body(circle, motion)};
+  FlowRun<2> run(flow_domain({20, 64, 1}, {0.5, 1.6, 1.0}, {0.0, -gravity, 0.0}), options);
+  double fastest = 0.0;
+  while (run.time < 0.3) {
+    run.step(std::min(1e-3, run.flow.stable_step(run.medium)));
+    fastest = std::max(fastest, run.flow.solids().velocity(0).velocity.norm());
+    ASSERT_LT(fastest, 1.5);
+  }
+  EXPECT_GT(height_of(run), 0.41);
+  EXPECT_GT(run.flow.solids().velocity(0).velocity[2], 0.0);
+}
+
 /// A body that sinks comes to rest on the floor and is not thrown back.
 TEST(FreeSolids, ACircleSinksToTheFloorAndStays) {
   const double radius = 0.1;

@@ -178,7 +178,7 @@ TEST(SolidBodies, AWedgeEntersWater) {
   std::sort(shares.begin(), shares.end());
   EXPECT_NEAR(shares[shares.size() / 2], exact, 0.25 * exact);
   EXPECT_GT(shares.front(), 0.0);
-  EXPECT_LT(shares.back(), 8.0 * exact);
+  EXPECT_LT(shares.back(), 7.0 * exact);
 }
 
 }  // namespace
