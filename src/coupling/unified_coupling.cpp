@@ -70,13 +70,30 @@ void UnifiedCoupling<D>::map_partly_filled(SoilSolver<D>& soil, const PorousMedi
   for_each(grid_->local(), [&](const Index<D>& cell) {
     medium.drains[cell] = std::max(fixed.drains[cell], room_.fraction()[cell] > rim ? 1.0 : 0.0);
   });
-  if (!grains_.hold_water) return;
-  soil.suction(medium.suction);
-  // Beside bodies as strong as far from them, and where grains were squeezed no stronger.
+  const auto suction = [](const SoilBody& body) { return body.filling.suction; };
+  spread(suction, strongest_suction_, soil, fixed.suction, medium.suction);
+  const auto held = [](const SoilBody& body) { return body.filling.residual * body.porosity; };
+  spread(held, 1.0, soil, fixed.residual, medium.residual);
+}
+
+template <int D>
+void UnifiedCoupling<D>::map_start(SoilSolver<D>& soil, const PorousMedium<D>& fixed,
+                                   PorousMedium<D>& medium) const {
+  const auto filled = [](const SoilBody& body) { return body.filling.at_start * body.porosity; };
+  spread(filled, 1.0, soil, fixed.at_start, medium.at_start);
+}
+
+/// Beside bodies as much as far from them, where grains were squeezed no more than `most`.
+template <int D>
+void UnifiedCoupling<D>::spread(double (*value)(const SoilBody&), double most, SoilSolver<D>& soil,
+                                const CellField<D>& fixed, CellField<D>& field) const {
+  const auto& bodies = soil.options().bodies;
+  if (std::none_of(bodies.begin(), bodies.end(),
+                   [&](const SoilBody& body) { return value(body) > 0.0; }))
+    return;
+  soil.spread_over_grains(value, field);
   for_each(grid_->local(), [&](const Index<D>& cell) {
-    medium.suction[cell] =
-        std::min(medium.suction[cell] / room_.reach_at(cell), strongest_suction_) +
-        fixed.suction[cell];
+    field[cell] = std::min(field[cell] / room_.reach_at(cell), most) + fixed[cell];
   });
 }
 

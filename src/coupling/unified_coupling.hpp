@@ -34,6 +34,8 @@ class UnifiedCoupling {
   void place_solids(const Space<D>& space) { room_.find_reach(space); }
 
   void map_soil_to_grid(SoilSolver<D>& soil, const PorousMedium<D>& fixed, PorousMedium<D>& medium);
+  /// How full pores are at the start where no body of water is. After map_soil_to_grid().
+  void map_start(SoilSolver<D>& soil, const PorousMedium<D>& fixed, PorousMedium<D>& medium) const;
   void move_grains(SoilSolver<D>& soil, double dt);
   void load_grains(const FlowSolver<D>& flow, const Space<D>& space, SoilSolver<D>& soil,
                    double dt);
@@ -58,6 +60,8 @@ class UnifiedCoupling {
   double damping_force(int axis, const Index<D>& face, double velocity, double damping) const;
   void map_partly_filled(SoilSolver<D>& soil, const PorousMedium<D>& fixed,
                          PorousMedium<D>& medium);
+  void spread(double (*value)(const SoilBody&), double most, SoilSolver<D>& soil,
+              const CellField<D>& fixed, CellField<D>& field) const;
   struct Push;
   struct Balance;
   Balance step_towards_rest(const Push& push, const FlowSolver<D>& flow, const Space<D>& space,

@@ -71,11 +71,14 @@ void fill_fixed_ground(const Grid<D>& grid, const FlowOptions& options, PorousMe
   for (const PorousGround& ground : options.porous) {
     const DragCoefficients drag = drag_of(ground, options);
     const double added = added_mass_of(ground, options);
-    const bool drains = !same_curve(ground.filling, PorousGround{}.filling);
+    const PoreFilling& filling = ground.filling;
+    const bool drains = filling.residual > 0.0 || !same_curve(filling, PorousGround{}.filling);
     for_each(grid.owned(), [&](const Index<D>& cell) {
       const double share = share_around(grid, ground.shape, -1, cell);
       medium.porosity[cell] += share * (ground.porosity - medium.porosity[cell]);
-      medium.suction[cell] += share * (ground.filling.suction - medium.suction[cell]);
+      medium.suction[cell] += share * (filling.suction - medium.suction[cell]);
+      medium.residual[cell] += share * (ground.porosity * filling.residual - medium.residual[cell]);
+      medium.at_start[cell] += share * (ground.porosity * filling.at_start - medium.at_start[cell]);
       if (share >= 0.5) medium.drains[cell] = drains ? 1.0 : 0.0;
     });
     for (int axis = 0; axis < D; ++axis)
@@ -94,6 +97,7 @@ void fill_fixed_ground(const Grid<D>& grid, const FlowOptions& options, PorousMe
   Ghosts<D> ghosts(grid);
   ghosts.update(medium.porosity);
   ghosts.update(medium.suction);
+  ghosts.update(medium.residual);
   ghosts.update(medium.drains);
   ghosts.exchange(medium.linear_drag);
   ghosts.exchange(medium.quadratic_drag);

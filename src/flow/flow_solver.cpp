@@ -1,16 +1,11 @@
 #include "flow/flow_solver.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
-#include "base/errors.hpp"
 #include "flow/flow_checks.hpp"
 #include "flow/wall_friction.hpp"
 #include "numerics/loops.hpp"
-#include "parallel/collective_error.hpp"
 
 namespace mudlark {
 namespace {
@@ -27,11 +22,6 @@ double slow_feedback(const Grid<D>& grid) {
   const double gravity = norm(grid.gravity());
   return gravity > 0.0 ? std::sqrt(gravity / grid.smallest_spacing()) : HUGE_VAL;
 }
-/// W may leave 0..theta by no more than this: round-off of the sweeps.
-constexpr double bound_tolerance = 1e-12;
-/// Less water than this does not limit the step: what it could overshoot by is far within the
-/// tolerance.
-constexpr double nothing = 1e-13;
 
 }  // namespace
 
@@ -69,17 +59,23 @@ FlowSolver<D>::FlowSolver(const Grid<D>& grid, const FlowOptions& options)
       body_friction_(grid, "body friction", "Pa s/m2") {
   if (options.gas) gas_.emplace(grid, options);
   if (options.turbulence.model != TurbulenceModel::none) turbulence_.emplace(grid, options);
+  for (const PorousGround& ground : options.porous)
+    if (ground.filling.residual > 0.0) keep_residual_water();
 }
 
-/// Ghosts and what follows from W, theta and v.
+/// Ghosts and what follows from W, theta and v; without a medium what grains hold stays as it is.
 template <int D>
-void FlowSolver<D>::update_derived() {
+void FlowSolver<D>::update_derived(const PorousMedium<D>* medium) {
   ghosts_.update(water_);
   ghosts_.update(porosity_);
   ghosts_.update(pressure_);
   ghosts_.update_velocity(velocity_);
-  const double* w = water_.data();
-  const double* theta = porosity_.data();
+  if (residual_ && medium)
+    residual_->hold(water_, porosity_, *medium);
+  else if (residual_)
+    residual_->release(water_, porosity_);
+  const double* w = free_water().data();
+  const double* theta = free_room().data();
   double* alpha = saturation_.data();
   for_each_offset(*grid_, grid_->local(), [&](std::ptrdiff_t at) {
     alpha[at] = theta[at] > 0.0 ? w[at] / theta[at] : 0.0;
@@ -109,7 +105,7 @@ void FlowSolver<D>::find_capacity(const PorousMedium<D>& medium) {
 }
 
 template <int D>
-void FlowSolver<D>::fill_with_bodies() {
+void FlowSolver<D>::fill_with_bodies(const PorousMedium<D>& medium) {
   const Grid<D>& grid = *grid_;
   for_each(grid.owned(), [&](const Index<D>& cell) {
     const Vec<D> centre = grid.cell_centre(cell);
@@ -118,7 +114,10 @@ void FlowSolver<D>::fill_with_bodies() {
     double share = 0.0;
     for (const WaterBody& body : options_.bodies)
       share += fraction_inside(body.shape, to_point3(centre - half), to_point3(centre + half), D);
-    water_[cell] = porosity_[cell] * std::min(share, 1.0);
+    share = std::min(share, 1.0);
+    const double elsewhere =
+        std::min(medium.space.volume[cell] * medium.at_start[cell], porosity_[cell]);
+    water_[cell] = share * porosity_[cell] + (1.0 - share) * elsewhere;
   });
   for (int axis = 0; axis < D; ++axis)
     for_each(grid.owned_faces(axis), [&](const Index<D>& face) {
@@ -146,8 +145,8 @@ void FlowSolver<D>::initialise(const PorousMedium<D>& medium) {
   for_each_offset(*grid_, grid_->local(),
                   [&](std::ptrdiff_t at) { theta[at] = volume[at] * given[at]; });
   find_capacity(medium);
-  fill_with_bodies();
-  update_derived();
+  fill_with_bodies(medium);
+  update_derived(&medium);
   find_sides(0.0);
   initial_volume_ = ledger().present;
   outflow_ = time_ = 0.0;
@@ -172,7 +171,8 @@ void FlowSolver<D>::find_unknowns() {
     solids_.walls().extend_saturation(porosity_, seen_);
     seen = &seen_;
   }
-  projection_.find_surface(water_, porosity_, capacity_, *seen, interface_);
+  projection_.find_surface(free_water(), free_room(), capacity_, *seen, interface_);
+  if (residual_) residual_->hang(projection_.unknown(), projection_.reach(), time_);
 }
 
 /// First the given velocity is made free of divergence (its pressure is an impulse and is thrown
@@ -198,7 +198,7 @@ void FlowSolver<D>::project_start(const PorousMedium<D>& medium) {
   if (gas_)
     ghosts_.update_velocity(velocity_);
   else
-    extension_.extend(projection_.unknown(), water_, porosity_, capacity_, medium.drains,
+    extension_.extend(projection_.unknown(), free_water(), free_room(), capacity_, medium.drains,
                       velocity_);
   double round_off = 1e-300;  // what cancellation leaves of the divergence under the deepest water
   for (int a = 0; a < D; ++a) {
@@ -262,10 +262,15 @@ void FlowSolver<D>::find_target(const PorousMedium<D>& medium, double dt, double
   }
 }
 
-/// Cells whose contents keep their volume: porosity moves with what passes through them.
+/// Cells whose contents may change their volume. In the others porosity moves with what passes.
 template <int D>
-bool FlowSolver<D>::incompressible(double water, double porosity) const {
-  return InterfaceAdvection<D>::dilates(water, porosity) || (gas_ && !gas_->compressible());
+void FlowSolver<D>::find_loose() {
+  const double *w = free_water().data(), *theta = free_room().data();
+  double* loose = loose_.data();
+  const bool all_keep = gas_ && !gas_->compressible();
+  for_each_offset(*grid_, grid_->owned(), [&](std::ptrdiff_t at) {
+    loose[at] = all_keep || InterfaceAdvection<D>::dilates(w[at], theta[at]) ? 0.0 : 1.0;
+  });
 }
 
 /// Water, porosity and momentum over dt with the present velocity. Cells that may change their
@@ -273,36 +278,44 @@ bool FlowSolver<D>::incompressible(double water, double porosity) const {
 /// needs until a pressure can push it out: there the dilation term is zero, so nothing is lost or
 /// gained.
 template <int D>
-void FlowSolver<D>::transport(const PorousMedium<D>& medium, double dt) {
+void FlowSolver<D>::transport(const PorousMedium<D>& medium, double dt,
+                              const FaceVector<D>* grain_velocity) {
   const Grid<D>& grid = *grid_;
   find_flux();
   old_water_.copy_values_from(water_);
   if (gas_) gas_->begin(water_, porosity_);
-  // Spray in gas keeps its planes: mixed, it would spread through the gas as mist.
-  interface_.sweep(water_, porosity_, flux_, dt, step_, gas_ ? Spray::sharp : Spray::mixed,
-                   &solids_.walls(), sides_.empty() ? nullptr : &sides_.inflow());
+  find_loose();
   move_porosity(grid, porosity_, flux_, dt, new_porosity_);
-  const double* w = old_water_.data();
+  if (residual_) residual_->go_with_grains(grain_velocity, capacity_, dt, flux_);
+  CellField<D>& moving = residual_ ? residual_->free() : water_;
+  // Spray in gas keeps its planes: mixed, it would spread through the gas as mist.
+  interface_.sweep(moving, free_room(), flux_, dt, step_, gas_ ? Spray::sharp : Spray::mixed,
+                   &solids_.walls(), sides_.empty() ? nullptr : &sides_.inflow());
+  if (residual_) residual_->join(water_);
   const double* theta = porosity_.data();
   const double* given = medium.porosity.data();
   const double* volume = medium.space.volume.data();
   const double* now = water_.data();
+  const double* loose = loose_.data();
   double* moved = new_porosity_.data();
   for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) {
-    const bool loose = !incompressible(w[at], theta[at]);
-    loose_.data()[at] = loose ? 1.0 : 0.0;
-    if (loose) moved[at] = solids_.moving() ? theta[at] : std::max(volume[at] * given[at], now[at]);
+    if (loose[at] > 0.0)
+      moved[at] = solids_.moving() ? theta[at] : std::max(volume[at] * given[at], now[at]);
   });
   if (!sources_.empty())
     outflow_ -= sum_over_ranks(grid, sources_.refill(time_, dt, loose_, new_porosity_));
-  interface_.follow_porosity(water_, porosity_, new_porosity_);
+  if (residual_)
+    residual_->follow_porosity(interface_, new_porosity_, water_, porosity_);
+  else
+    interface_.follow_porosity(water_, porosity_, new_porosity_);
+  carried_.copy_values_from(interface_.water_flux());
+  if (residual_) residual_->add_passed(carried_);
   if (solids_.moving()) follow_solids(medium);
   check_bounds();
   add_outflow();
   ghosts_.update(water_);
   ghosts_.update(porosity_);
   find_capacity(medium);
-  carried_.copy_values_from(interface_.water_flux());
   ghosts_.exchange(carried_);
   solids_.walls().extend_velocity(velocity_);
   hold_sides();
@@ -318,9 +331,9 @@ void FlowSolver<D>::transport(const PorousMedium<D>& medium, double dt) {
 template <int D>
 void FlowSolver<D>::advance(const PorousMedium<D>& medium, double dt, MovingGrains<D>* grains) {
   check_step(dt);
-  transport(medium, dt);
+  transport(medium, dt, grains ? &grains->velocity : nullptr);
   if (!waves_.empty()) make_waves(dt);
-  update_derived();
+  update_derived(&medium);
   find_sides(time_ + dt);
   find_unknowns();
   if (options_.wall_law != WallLaw::resolved)
@@ -340,7 +353,7 @@ void FlowSolver<D>::advance(const PorousMedium<D>& medium, double dt, MovingGrai
   predictor_.advance(medium, porosity_, capacity_, wall_friction_, time_, dt,
                      gas_ ? &gas_->mixture() : nullptr,
                      turbulence_ ? &turbulence_->viscosity() : nullptr, velocity_, mobility_);
-  drained_.slow(water_, porosity_, projection_.unknown(), medium.added_mass, dt, velocity_,
+  drained_.slow(free_water(), free_room(), projection_.unknown(), medium.added_mass, dt, velocity_,
                 mobility_);
   hold_sides();
   if (!grains) push_given(medium);
@@ -357,7 +370,7 @@ void FlowSolver<D>::advance(const PorousMedium<D>& medium, double dt, MovingGrai
                                       options_.pressure_tolerance / dt);
   ghosts_.update_velocity(velocity_);
   if (!gas_)
-    extension_.extend(projection_.unknown(), water_, porosity_, capacity_, medium.drains,
+    extension_.extend(projection_.unknown(), free_water(), free_room(), capacity_, medium.drains,
                       velocity_);
   hold_sides();
   check_finite();
@@ -396,101 +409,11 @@ void FlowSolver<D>::add_outflow() {
   for (int axis = 0; axis < D; ++axis)
     for (int side = 0; side < 2; ++side) {
       if (!grid.touches(axis, side)) continue;
-      const double* through = interface_.water_flux()[axis].data();
+      const double* through = carried_[axis].data();
       for_each_offset(grid, wall_faces(grid, axis, side),
                       [&](std::ptrdiff_t at) { volume += side == 0 ? -through[at] : through[at]; });
     }
   outflow_ += sum_over_ranks(grid, volume) * grid.cell_volume();
-}
-
-/// Largest of sum of inflow and sum of outflow per pore volume of a cell [1/s]; only fluxes that
-/// can carry something count: all of them in cells with a pressure, else those whose donor holds
-/// water.
-template <int D>
-double FlowSolver<D>::courant_rate() const {
-  const Grid<D>& grid = *grid_;
-  const double* w = water_.data();
-  const double* theta = porosity_.data();
-  double fastest = 0.0;
-  for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) {
-    const bool all = gas_ || InterfaceAdvection<D>::dilates(w[at], theta[at]);
-    const bool wet = gas_ || w[at] > nothing;
-    double in = 0.0, out = 0.0;
-    for (int axis = 0; axis < D; ++axis) {
-      const std::ptrdiff_t s = grid.stride(axis);
-      const double inverse = 1.0 / grid.spacing()[axis];
-      const double* v = velocity_[axis].data();
-      const double* capacity = capacity_[axis].data();
-      const double lower = capacity[at] * v[at] * inverse;
-      const double upper = capacity[at + s] * v[at + s] * inverse;
-      if (lower > 0.0 && (all || w[at - s] > nothing)) in += lower;
-      if (upper < 0.0 && (all || w[at + s] > nothing)) in -= upper;
-      if (wet) out += std::max(-lower, 0.0) + std::max(upper, 0.0);
-    }
-    if (theta[at] > 0.0) fastest = std::max(fastest, std::max(in, out) / theta[at]);
-  });
-  return max_over_ranks(grid, fastest);
-}
-
-template <int D>
-double FlowSolver<D>::stable_step(const PorousMedium<D>&) const {
-  const Grid<D>& grid = *grid_;
-  const double h = grid.smallest_spacing();
-  double step = options_.courant / std::max(courant_rate(), 1e-300);
-  const double gravity = norm(grid.gravity()) + predictor_.largest_body_acceleration(time_);
-  if (gravity > 0.0)
-    step = std::min(step, 2.0 * options_.courant * std::sqrt(h / (std::numbers::pi * gravity)));
-  if (options_.viscosity > 0.0)
-    step = std::min(step, h * h * options_.density / (6.0 * options_.viscosity));
-  // At the surface a face may be lighter than the edges beside it are viscous: up to four times.
-  if (gas_ && options_.gas->viscosity > 0.0)
-    step = std::min(step, h * h * options_.gas->density / (24.0 * options_.gas->viscosity));
-  if (turbulence_)  // a little below 1/6: the viscosity varies, and its stress is symmetric
-    step = std::min(
-        step, h * h / (8.0 * (options_.viscosity / options_.density + turbulence_->largest())));
-  return solids_.moving() ? solids_.limited_step(time_, step) : step;
-}
-
-template <int D>
-void FlowSolver<D>::check_step(double dt) const {
-  const double rate = courant_rate();
-  if (rate * dt > 0.5 + 1e-9) {
-    const FastestPlace<D> fastest = max_speed();
-    throw DivergenceError(
-        fmt::format("The water's step of {:.4g} s is too large: at most {:.4g} s keep the surface "
-                    "bounded (fastest water {:.4g} m/s at {}). Use a smaller step.",
-                    dt, 0.5 / rate, fastest.speed, place_text(fastest.position)));
-  }
-}
-
-template <int D>
-void FlowSolver<D>::check_bounds() const {
-  const Grid<D>& grid = *grid_;
-  const double* w = water_.data();
-  const double* theta = porosity_.data();
-  double worst = bound_tolerance;
-  std::ptrdiff_t where = -1;
-  for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) {
-    const double beyond = std::max(-w[at], w[at] - theta[at]);
-    if (beyond > worst || std::isnan(beyond)) worst = beyond, where = at;
-  });
-  std::string problem;
-  if (where >= 0) {
-    const Vec<D> position = place_of(grid, where);
-    problem =
-        fmt::format("The water fraction left its bounds at {}: {:.17g} in a porosity of {:.17g}.",
-                    place_text(position), w[where], theta[where]);
-  }
-  throw_divergence_if_any(grid.comm(), problem);
-}
-
-template <int D>
-void FlowSolver<D>::check_finite() const {
-  std::string problem =
-      not_finite(*grid_, grid_->owned(), pressure_.data(), "pressure of the water");
-  for (int axis = 0; axis < D && problem.empty(); ++axis)
-    problem = not_finite(*grid_, grid_->owned(), velocity_[axis].data(), "velocity of the water");
-  throw_divergence_if_any(grid_->comm(), problem);
 }
 
 template class FlowSolver<2>;

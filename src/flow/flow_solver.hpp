@@ -55,6 +55,8 @@ class FlowSolver {
   /// Water that shares its pressure with grains gives way to it, by 1/K [1/Pa]. Before
   /// initialise().
   void let_water_give_way(double compressibility) { storage_.emplace(*grid_, compressibility); }
+  /// Drained pores keep what the medium's residual saturation says. Before initialise().
+  void keep_residual_water() { residual_.emplace(*grid_, options_); }
   /// Room that bodies leave in the medium where they are now: before initialise().
   void place_solids(PorousMedium<D>& medium) { solids_.fill(medium); }
   /// What follows from a state just loaded.
@@ -83,8 +85,9 @@ class FlowSolver {
   /// is. Fields of `grains` valid on owned and bounding faces.
   void advance(const PorousMedium<D>& medium, double dt, MovingGrains<D>* grains = nullptr);
 
-  const CellField<D>& pressure() const { return pressure_; }      ///< [Pa], above that of still air
-  const CellField<D>& saturation() const { return saturation_; }  ///< alpha = W / theta [-]
+  const CellField<D>& pressure() const { return pressure_; }  ///< [Pa], above that of still air
+  /// alpha = W / theta [-]; where pores keep a residue, of the water beyond it in the room beyond.
+  const CellField<D>& saturation() const { return saturation_; }
   const CellField<D>& water_fraction() const {
     return water_;
   }  ///< W, water volume per cell volume [-]
@@ -95,7 +98,7 @@ class FlowSolver {
   double density() const { return options_.density; }          ///< [kg/m3]
   /// Water that passed each face in the last step as a share of a cell's volume; zero before the
   /// first step. On owned and bounding faces.
-  const FaceVector<D>& water_flux() const { return interface_.water_flux(); }
+  const FaceVector<D>& water_flux() const { return carried_; }
 
   WaterLedger ledger() const;
   double kinetic_energy() const;      ///< [J], per metre in 2D
@@ -139,14 +142,16 @@ class FlowSolver {
     ghosts_.exchange(capacity_);
     if (turbulence_) turbulence_->archive(a);
     if (storage_) storage_->archive(a);
+    if (residual_) residual_->archive(a);
     update_derived();
     find_sides(time_);
   }
 
  private:
-  void update_derived();
-  void fill_with_bodies();
-  void transport(const PorousMedium<D>& medium, double dt);
+  void update_derived(const PorousMedium<D>* medium = nullptr);
+  void fill_with_bodies(const PorousMedium<D>& medium);
+  void transport(const PorousMedium<D>& medium, double dt, const FaceVector<D>* grain_velocity);
+  void find_loose();
   void find_capacity(const PorousMedium<D>& medium);
   void follow_solids(const PorousMedium<D>& medium);
   void find_flux();
@@ -157,7 +162,9 @@ class FlowSolver {
   void hold_sides();
   void project_start(const PorousMedium<D>& medium);
   void find_unknowns();
-  bool incompressible(double water, double porosity) const;
+  /// What moves as water with a sharp surface, and its room.
+  const CellField<D>& free_water() const { return residual_ ? residual_->free() : water_; }
+  const CellField<D>& free_room() const { return residual_ ? residual_->room() : porosity_; }
   void push_given(const PorousMedium<D>& medium);
   void project_with_grains(const PorousMedium<D>& medium, const CellField<D>& give_way, double dt,
                            MovingGrains<D>& grains);
@@ -183,6 +190,7 @@ class FlowSolver {
   std::optional<Turbulence<D>> turbulence_;
   std::optional<WaterStorage<D>> storage_;  ///< where water that gives way meets grains
   std::optional<GrainsInWater<D>> with_grains_;
+  std::optional<ResidualWater<D>> residual_;  ///< where drained pores keep some
   SolidBodies<D> solids_;
   CellField<D> water_, porosity_, pressure_, saturation_;
   FaceVector<D> velocity_;

@@ -15,6 +15,7 @@ void FlowSolver<D>::push_given(const PorousMedium<D>& medium) {
   if (!gas_) projection_.pull(mobility_, medium.suction, velocity_);
 }
 
+/// What else hangs on the grains goes with the menisci.
 template <int D>
 void FlowSolver<D>::push_on_grains(const PorousMedium<D>& medium, FaceVector<D>& per_share,
                                    FaceVector<D>& menisci) {
@@ -33,6 +34,13 @@ void FlowSolver<D>::push_on_grains(const PorousMedium<D>& medium, FaceVector<D>&
   projection_.pull(mobility_, medium.suction, per_share);
   projection_.hang(medium.suction, menisci);
   ghosts_.add_to_owners(menisci);
+  if (!residual_) return;
+  for (int a = 0; a < D; ++a) {
+    const double* weight = residual_->weight()[a].data();
+    double* force = menisci[a].data();
+    for_each_offset(*grid_, grid_->owned_faces(a),
+                    [&](std::ptrdiff_t at) { force[at] += weight[at]; });
+  }
 }
 
 /// One pressure makes the flux of water and grains together free of divergence and moves both.
@@ -50,8 +58,8 @@ void FlowSolver<D>::project_with_grains(const PorousMedium<D>& medium, const Cel
         grains.force[a].data()[at] += both.menisci()[a].data()[at];
       });
   }
-  both.couple(capacity_, water_, porosity_, projection_.unknown(), projection_.reach(), dt,
-              velocity_, mobility_, grains);
+  both.couple(capacity_, free_water(), free_room(), projection_.unknown(), projection_.reach(),
+              residual_ ? &*residual_ : nullptr, dt, velocity_, mobility_, grains);
   hold_sides();
   push_given(medium);
   sides_.push(both.grain_mobility(), projection_.unknown(), grains.velocity);

@@ -47,8 +47,9 @@ GrainsInWater<D>::GrainsInWater(const Grid<D>& grid)
 template <int D>
 void GrainsInWater<D>::couple(const FaceVector<D>& capacity, const CellField<D>& water,
                               const CellField<D>& porosity, const CellField<D>& unknown,
-                              const FaceVector<D>& reach, double dt, FaceVector<D>& velocity,
-                              FaceVector<D>& mobility, MovingGrains<D>& grains) {
+                              const FaceVector<D>& reach, const ResidualWater<D>* residual,
+                              double dt, FaceVector<D>& velocity, FaceVector<D>& mobility,
+                              MovingGrains<D>& grains) {
   const Grid<D>& grid = *grid_;
   const double slow = undirected_speed(norm(grid.gravity()), dt);
   find_shares(capacity, mobility, grains);
@@ -59,8 +60,12 @@ void GrainsInWater<D>::couple(const FaceVector<D>& capacity, const CellField<D>&
     double *v = velocity[axis].data(), *m = mobility[axis].data();
     double* grain_v = grains.velocity[axis].data();
     double *flux_m = flux_mobility_[axis].data(), *grain_m = grain_mobility_[axis].data();
+    const double* free_share = residual ? residual->free_share()[axis].data() : nullptr;
+    const double* held = residual ? residual->mass()[axis].data() : nullptr;
+    const double* held_weight = residual ? residual->weight()[axis].data() : nullptr;
     for_each_offset(grid, bounding_faces(grid, axis), [&](std::ptrdiff_t at) {
-      const double inertia = grains.inertia[axis].data()[at], share = grains.share[axis].data()[at];
+      const double share = grains.share[axis].data()[at];
+      double inertia = grains.inertia[axis].data()[at];
       const bool open = theta[at] > 0.0;
       if (inertia > 0.0) {
         // Where no pressure acts, water is what the cell that it comes from holds, and k_r of the
@@ -72,10 +77,12 @@ void GrainsInWater<D>::couple(const FaceVector<D>& capacity, const CellField<D>&
                                                       (v[at] - grain_v[at]) / slow);
         const double pull = known ? 1.0 : pull_of_part(grains.filling, filled);
         const double resistance = grains.resistance[axis].data()[at];
-        const FaceSystem face{inertia, open ? filled * theta[at] * dt / m[at] : 0.0,
-                              dt * pull * theta[at] * theta[at] * resistance};
-        const Pair now = face.solve(inertia * grain_v[at] + dt * grains.force[axis].data()[at],
-                                    face.water_mass * v[at]);
+        const double loose = residual && !known ? free_share[at] : 1.0;
+        double force = grains.force[axis].data()[at];
+        if (residual && open) inertia += held[at], force += held_weight[at];
+        const FaceSystem face{inertia, open ? loose * filled * theta[at] * dt / m[at] : 0.0,
+                              loose * dt * pull * theta[at] * theta[at] * resistance};
+        const Pair now = face.solve(inertia * grain_v[at] + dt * force, face.water_mass * v[at]);
         // At the surface only the grains below it feel the pressure, which falls over `reach`.
         const bool surface = wet && governed[at] * governed[at - s] == 0.0;
         const double below = surface ? std::min(reach[axis].data()[at], 1.0) : 1.0;

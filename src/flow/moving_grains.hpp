@@ -1,6 +1,7 @@
 #pragma once
 /// Grains that share one pressure with the water around and between them (NUMERICS C2).
 #include "base/pore_filling.hpp"
+#include "flow/residual_water.hpp"
 #include "grid/field.hpp"
 
 namespace mudlark {
@@ -40,11 +41,13 @@ class GrainsInWater {
 
   /// `velocity` is that of the water under all but pressure and grains, `mobility` its answer
   /// alone, dt / (rho + ...) [m2 s/kg]; both become those of the two together, as does
-  /// grains.velocity. `water` W and `unknown` (cells with a pressure) need ghosts; `reach` is that
-  /// of the pressure at a face [cells]. Closed walls hold both. Owned and bounding faces.
+  /// grains.velocity. `water`, free in the room `porosity`, and `unknown` (cells with a pressure)
+  /// need ghosts; `reach` is that of the pressure at a face [cells]; `residual` (or null) hangs on
+  /// the grains. Closed walls hold both. Owned and bounding faces.
   void couple(const FaceVector<D>& capacity, const CellField<D>& water,
               const CellField<D>& porosity, const CellField<D>& unknown, const FaceVector<D>& reach,
-              double dt, FaceVector<D>& velocity, FaceVector<D>& mobility, MovingGrains<D>& grains);
+              const ResidualWater<D>* residual, double dt, FaceVector<D>& velocity,
+              FaceVector<D>& mobility, MovingGrains<D>& grains);
 
   /// theta v_f + phi v_s from both velocities, which walls may have been given since.
   void find_flux(const FaceVector<D>& velocity, const MovingGrains<D>& grains);

@@ -12,6 +12,8 @@ PorousMedium<D>::PorousMedium(const Grid<D>& grid)
       quadratic_drag(grid, "quadratic drag", "Pa s2/m3"),
       added_mass(grid, "added mass", "kg/m3"),
       suction(grid, "suction", "Pa"),
+      residual(grid, "residual saturation", "1"),
+      at_start(grid, "saturation at the start", "1"),
       drains(grid, "drains", "1"),
       give_way(grid, "give way", "1/(Pa s)") {}
 

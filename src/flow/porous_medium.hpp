@@ -19,6 +19,8 @@ struct PorousMedium {
   FaceVector<D> added_mass;  ///< C_A rho (1-n)/n [kg/m3]: what fixed grains add to the inertia of
                              ///< the water between them, per volume of it
   CellField<D> suction;   ///< of the water's surface between grains, less where they are fewer [Pa]
+  CellField<D> residual;  ///< n S_r, water per volume that stays with the grains [-]
+  CellField<D> at_start;  ///< n S, the same that is there where no body of water is [-]
   CellField<D> drains;    ///< 1 where water in partly filled pores goes by a relative permeability
   CellField<D> give_way;  ///< volume rate per volume and pressure rise over the step [1/(Pa s)]:
                           ///< how easily the ground gives way; 0 for rigid ground

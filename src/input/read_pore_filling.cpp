@@ -1,4 +1,6 @@
-/// relative_permeability and suction of [[soil]] and [[porous]].
+/// relative_permeability, suction and initial_saturation of [[soil]] and [[porous]].
+#include <fmt/format.h>
+
 #include "input/sections.hpp"
 
 namespace mudlark {
@@ -27,6 +29,13 @@ PoreFilling read_pore_filling(Section& section, PoreFilling fallback) {
       curve.forbid("exponent", "it belongs to type = \"power\"");
     else
       curve.forbid("n", "it belongs to type = \"van-genuchten\"");
+    filling.residual = curve.number(
+        "residual_saturation", quantity::number,
+        {.lower = 0.0,
+         .upper = 0.9,
+         .reason = "the share of the pores whose water does not drain; what is left is to drain",
+         .cure = "Sand has about 0.05 to 0.2, loam 0.2 to 0.4."},
+        0.0);
     curve.finish();
   }
   filling.suction = section.number(
@@ -34,6 +43,18 @@ PoreFilling read_pore_filling(Section& section, PoreFilling fallback) {
       not_negative("what the surface of the water in the pores holds against the air",
                    "Fine sand has 1 to 5 kPa: 0.1 to 0.5 m of water."),
       0.0);
+  const double full = 0.5 * (1.0 + filling.residual);
+  filling.at_start =
+      section.number("initial_saturation", quantity::number,
+                     {.lower = 0.0,
+                      .upper = full,
+                      .upper_included = false,
+                      .reason = fmt::format(
+                          "pores are filled so far outside of the bodies of water; from {:g} on, "
+                          "half of what drains, they count as full",
+                          full),
+                      .cure = "Put a [[water.body]] where pores are full."},
+                     filling.residual);
   return filling;
 }
 

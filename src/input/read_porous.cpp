@@ -144,6 +144,9 @@ void read_porous(Section& root, CaseOptions& options, std::vector<NamedShape>& g
     if (ground.filling.suction > 0.0 && options.flow->gas)
       section.fail("suction", "water that gas surrounds has no surface of its own to hold it",
                    "Leave out air = \"gas\" under [water], or the suction.");
+    if (ground.filling.at_start > 0.0 && options.flow->gas)
+      section.fail("initial_saturation", "water that gas surrounds is placed by [[water.body]]",
+                   "Leave out air = \"gas\" under [water], or this key.");
     section.finish();
     if (!shape) continue;
     ground.shape = *shape;

@@ -178,7 +178,7 @@ void read_pore_water(Section& section, SoilBody& body, const WaterProperties& wa
   if (unified)
     body.filling = read_pore_filling(section, body.filling);
   else
-    for (const char* key : {"relative_permeability", "suction"})
+    for (const char* key : {"relative_permeability", "suction", "initial_saturation"})
       section.forbid(key, "pores that are not full are known with pore_water = \"unified\"");
   if (section.has("initial_pore_pressure")) {
     if (wet)

@@ -118,6 +118,18 @@ CellField<D> water_per_cell(World<D>& world) {
   return share;
 }
 
+/// Of what grains and bodies leave of each cell, what water fills.
+template <int D>
+CellField<D> water_per_room(World<D>& world) {
+  const FlowSolver<D>& flow = *world.flow();
+  CellField<D> share(world.grid(), "saturation", "1");
+  for_each(world.grid().owned(), [&](const Index<D>& cell) {
+    const double room = flow.porosity()[cell];
+    share[cell] = room > 0.0 ? flow.water_fraction()[cell] / room : 0.0;
+  });
+  return share;
+}
+
 /// How much of each cell rigid bodies fill, from the distance of its centre to their surface.
 template <int D>
 CellField<D> solid_share(World<D>& world) {
@@ -192,9 +204,10 @@ void Results<D>::write_fields(World<D>& world) {
   last_output_ = world.clock().time();
   std::vector<const CellField<D>*> cells;
   std::vector<const FaceVector<D>*> faces;
-  std::optional<CellField<D>> per_cell;
+  std::optional<CellField<D>> per_cell, per_room;
   if (FlowSolver<D>* flow = world.flow()) {
-    cells = {&flow->saturation(), &per_cell.emplace(water_per_cell(world)), &flow->pressure()};
+    cells = {&per_room.emplace(water_per_room(world)), &per_cell.emplace(water_per_cell(world)),
+             &flow->pressure()};
     if (flow->turbulence())
       for (const CellField<D>* field : flow->turbulence()->fields()) cells.push_back(field);
     faces = {&flow->velocity()};

@@ -58,6 +58,8 @@ World<D>::World(const CaseOptions& options, MPI_Comm comm)
     flow_->follow_leaders(soil_->solids());
     if (const double bulk = options.soil->water_bulk_modulus; std::isfinite(bulk))
       flow_->let_water_give_way(1.0 / bulk);
+    for (const SoilBody& body : options.soil->bodies)
+      if (body.filling.residual > 0.0) flow_->keep_residual_water();
   }
 }
 
@@ -68,6 +70,7 @@ void World<D>::initialise() {
   if (unified_) unified_->place_solids(medium_.space);
   if (coupling_) coupling_->map_soil_to_grid(*soil_, fixed_, medium_);
   if (unified_) unified_->map_soil_to_grid(*soil_, fixed_, medium_);
+  if (unified_) unified_->map_start(*soil_, fixed_, medium_);
   if (flow_) flow_->initialise(medium_);
   if (unified_) unified_->initialise(*flow_, medium_.space, *soil_);
   if (coupling_) coupling_->initialise(*flow_, *soil_, *load_);
@@ -80,6 +83,7 @@ void World<D>::find_equilibrium() {
   if (!unified_) return soil_->find_equilibrium();
   unified_->find_equilibrium(*flow_, medium_, *soil_);
   unified_->map_soil_to_grid(*soil_, fixed_, medium_);
+  unified_->map_start(*soil_, fixed_, medium_);
   flow_->initialise(medium_);  // the same water between grains that have moved
   unified_->initialise(*flow_, medium_.space, *soil_);
   ledger_ = open_ledger(*this);

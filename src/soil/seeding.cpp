@@ -54,11 +54,12 @@ bool is_wet(const SoilOptions& options, const SoilBody& body, const Point3& plac
           std::any_of(options.flooded.begin(), options.flooded.end(), floods));
 }
 
-/// Weight that grains give to those below them, per volume [N/m^D].
+/// Weight that grains, with what water hangs between them, give to those below, per volume [N/m^D].
 double submerged_unit_weight(const SoilOptions& options, const SoilBody& body, bool wet,
                              double gravity) {
   const double buoyancy = wet ? options.water_density : 0.0;
-  return (1.0 - body.porosity) * (body.grain_density - buoyancy) * gravity;
+  const double hanging = wet ? 0.0 : body.porosity * body.filling.at_start * options.water_density;
+  return ((1.0 - body.porosity) * (body.grain_density - buoyancy) + hanging) * gravity;
 }
 
 struct Overburden {

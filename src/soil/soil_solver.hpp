@@ -125,9 +125,9 @@ class SoilSolver {
   /// Grain volume per cell volume [-], and the Darcy resistance mu/kappa [Pa s/m2] that fades with
   /// the grains at the rim, from the points, ghosts included. Collective.
   void solid_fraction(CellField<D>& fraction, CellField<D>& resistance);
-  /// Suction of the pores [Pa], that fades with the grains like the resistance. After
-  /// solid_fraction(). Collective.
-  void suction(CellField<D>& field);
+  /// What each soil has at its porosity at the start, suction for example, in proportion to the
+  /// grains. After solid_fraction(). Collective.
+  void spread_over_grains(double (*value)(const SoilBody&), CellField<D>& field);
   /// Pore pressure from a cell field (ghosts valid), plus the excess that the case gives. For the
   /// start.
   void set_pore_pressure(const CellField<D>& pressure);

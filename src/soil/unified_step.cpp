@@ -81,10 +81,10 @@ void SoilSolver<D>::rub_walls(const FaceVector<D>& before, double dt, FaceVector
 }
 
 template <int D>
-void SoilSolver<D>::suction(CellField<D>& field) {
+void SoilSolver<D>::spread_over_grains(double (*value)(const SoilBody&), CellField<D>& field) {
   field.fill(0.0);
   for (std::size_t b = 0; b < points_.size(); ++b) {
-    const double weight = options_.bodies[b].filling.suction / (1.0 - constants_[b].start_porosity);
+    const double weight = value(options_.bodies[b]) / (1.0 - constants_[b].start_porosity);
     if (weight > 0.0)
       add_solid_fraction(*grid_, points_[b], constants_[b].grain_density, options_.kernel, weight,
                          field);
@@ -95,8 +95,8 @@ void SoilSolver<D>::suction(CellField<D>& field) {
   halo_.exchange(one);
 }
 
-template void SoilSolver<2>::suction(CellField<2>&);
-template void SoilSolver<3>::suction(CellField<3>&);
+template void SoilSolver<2>::spread_over_grains(double (*)(const SoilBody&), CellField<2>&);
+template void SoilSolver<3>::spread_over_grains(double (*)(const SoilBody&), CellField<3>&);
 template void SoilSolver<2>::move_with(const FaceVector<2>&, const FaceVector<2>&, double);
 template void SoilSolver<3>::move_with(const FaceVector<3>&, const FaceVector<3>&, double);
 template void SoilSolver<2>::put_solids_in_water(double);
