@@ -182,6 +182,7 @@ class SoilSolver {
     side_water_.archive(a);
     if (Archive::loading) side_water_.spread(sides_, halo_);
     absorbing_.archive(a);
+    wall_contact_.archive(a);
   }
 
  private:

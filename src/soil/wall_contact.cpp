@@ -8,6 +8,10 @@
 namespace mudlark {
 namespace {
 
+/// Share of a wall's debt that is left after a step. A wave crosses a cell in about two steps:
+/// debts outlive some swings (4 H/c) of a layer of 25 cells.
+constexpr double debt_kept = 1.0 - 1.0 / 1000.0;
+
 /// The cells, or faces along the wall, next to one side of the domain.
 template <int D>
 IndexBox<D> row_at_wall(const Grid<D>& grid, IndexBox<D> box, int axis, int side) {
@@ -32,7 +36,8 @@ WallContact<D>::WallContact(const SoilSides<D>& sides) : grid_(&sides.grid()), h
   for (int axis = 0; axis < D; ++axis)
     for (int side = 0; side < 2; ++side)
       if (rough(axis, side))
-        walls_.push_back({axis, side, CellField<D>(grid, "impulse of the wall", "kg m/s")});
+        walls_.push_back({axis, side, CellField<D>(grid, "impulse of the wall", "kg m/s"),
+                          CellField<D>(grid, "pull of the wall", "kg m/s")});
 }
 
 /// What moved the grains of a face beside the forces of the points' sums, per mass [m/s].
@@ -90,7 +95,9 @@ void WallContact<D>::measure(const SoilSides<D>& sides, const Change& change,
           }
           given += (layer == 0 ? 1.0 : 2.0) * left;
         }
-        wall.impulse[cell] = coefficient * outwards * given;
+        const double pressed = coefficient * outwards * given - debt_kept * wall.owed[cell];
+        wall.impulse[cell] = std::max(0.0, pressed);
+        wall.owed[cell] = std::max(0.0, -pressed);
       });
     }
     halo_.exchange(wall.impulse);
@@ -113,7 +120,7 @@ void WallContact<D>::apply(const SoilSides<D>& sides, const Change& change,
         const double mass = change.inertia * sums[u][face].grain_mass;
         if (mass <= 0.0) return;
         const Index<D> below = face.shifted(d, -1);
-        const double held = std::max(0.0, 0.5 * (wall.impulse[face] + wall.impulse[below]));
+        const double held = 0.5 * (wall.impulse[face] + wall.impulse[below]);
         double speed2 = node.grain_velocity * node.grain_velocity;
         for (int other = 0; other < D; ++other) {  // the second component along the wall, in 3D
           if (other == d || other == wall.axis) continue;
