@@ -18,6 +18,7 @@ template <int D>
 void FlowSolver<D>::move_solids(PorousMedium<D>& medium, double dt) {
   if (!solids_.moving()) return;
   solids_.walls().extend_velocity(velocity_);  // what faces that open now begin with
+  hold_sides();
   solids_.move(time_, dt);
   solids_.fill(medium);
 }

@@ -91,6 +91,22 @@ TEST(FlowSides, AGivenVelocityBringsItsVolumeThroughItsPart) {
   EXPECT_NEAR(ledger.present, ledger.initial - ledger.outflow, 1e-12);
 }
 
+// A body that moves makes the solver look at all velocities anew before the water is carried.
+TEST(FlowSides, BringWaterBesideABodyThatMoves) {
+  PrescribedSolid motion;
+  motion.translation[0] = Varying(0.05);
+  const Shape stirrer{BoxShape{{2.0, -9.0, 0.05}, {2.5, 9.0, 0.15}}};
+  FlowOptions options = water();
+  options.solids = {{"stirrer", stirrer, {}, motion, false, 0.0}};
+  options.sides = {opening(0, SideFlow::velocity, Varying(0.2))};
+  options.sides[0].to[2] = 0.1;
+  FlowRun<2> run(channel(40, Wall::slip, Wall::slip), options);
+  for (int step = 0; step < 50; ++step) run.step(0.01);
+  const WaterLedger ledger = run.flow.ledger();
+  EXPECT_NEAR(-ledger.outflow, 0.2 * 0.1 * 0.5, 1e-12);
+  EXPECT_NEAR(ledger.present, ledger.initial - ledger.outflow, 1e-12);
+}
+
 TEST(FlowSides, ALevelOutsideHoldsStillWaterAndFillsALowerPool) {
   FlowOptions options = water();
   options.sides = {opening(1, SideFlow::level, Varying(0.2))};
