@@ -51,9 +51,12 @@ void print_estimate(const CaseEstimate& estimate) {
   fmt::print("#   cells              {}\n", estimate.cells);
   fmt::print("#   material points    {}\n", estimate.points);
   fmt::print("#   stable flow step   {}\n", step_text(estimate.flow_step));
-  fmt::print("#   stable soil step   {}\n", step_text(estimate.soil_step));
+  fmt::print("#   stable soil step   {}\n",
+             estimate.cpu_seconds ? step_text(estimate.soil_step) : "any (implicit)");
   fmt::print("#   memory             {:.1f} MiB\n", estimate.memory / mebibyte);
-  fmt::print("#   time on one core   about {}\n", duration_text(estimate.cpu_seconds));
+  fmt::print("#   time on one core   {}\n",
+             estimate.cpu_seconds ? "about " + duration_text(*estimate.cpu_seconds)
+                                  : "open: implicit steps are as long as accuracy allows");
 }
 
 }  // namespace

@@ -184,9 +184,14 @@ void FlowSides<D>::find_wave(const Side& side, double time) {
     inflow_[axis].data()[at] = share;
     if (share == 0.0 && share_below(face, found) == 0.0) return;
     const double z = std::min(centre[D - 1] - wave.still_level, eta);
-    const double along = ramp * side.motion->velocity(place, z, time)[0];
+    const WaveVelocity comes = side.motion->velocity(place, z, time);
     speed_[axis].data()[at] =
-        wave.current + sign * (along - std::sqrt(gravity_ / wave.depth) * excess);
+        wave.current + sign * (ramp * comes[0] - std::sqrt(gravity_ / wave.depth) * excess);
+    const std::ptrdiff_t behind = side.options.side == 0 ? at + outward(side) : at;
+    const double foot = grid.face_position(D - 1, face[D - 1]) - wave.still_level;
+    speed_[D - 1].data()[behind] =
+        ramp * side.motion->velocity(place, std::min(foot, eta), time)[2];
+    if constexpr (D == 3) speed_[1 - axis].data()[behind] = ramp * comes[1];
   });
 }
 
@@ -221,6 +226,27 @@ void FlowSides<D>::apply(const CellField<D>& porosity, CellField<D>& water,
       if (!given) return;
       v[at] = speed[at];
       v[at + out] = speed[at];
+    });
+    bring_motion(side, velocity);
+  }
+}
+
+/// Water that comes in moves along the side as the wave does, or not at all. Walls mirror what is
+/// inside, and water that falls along the side would come in falling, ever faster.
+template <int D>
+void FlowSides<D>::bring_motion(const Side& side, FaceVector<D>& velocity) const {
+  const int axis = side.options.axis;
+  const std::ptrdiff_t out = outward(side);
+  const double sign = inwards(side.options);
+  const double* v = velocity[axis].data();
+  for (int d = 0; d < D; ++d) {
+    if (d == axis) continue;
+    const double* along = speed_[d].data();
+    double* w = velocity[d].data();
+    for_each_face(side, [&](std::ptrdiff_t at, const Index<D>&) {
+      if (sign * v[at] <= 0.0) return;
+      const std::ptrdiff_t behind = side.options.side == 0 ? at + out : at;
+      for (int layer = 0; layer < ghost_layers; ++layer) w[behind + layer * out] = along[behind];
     });
   }
 }

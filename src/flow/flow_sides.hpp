@@ -65,13 +65,15 @@ class FlowSides {
   void find_wave(const Side& side, double time);
   double discharge_speed(const Side& side, const FaceVector<D>& capacity, double time) const;
   double level_at(const Side& side, const Index<D>& face, double time) const;
+  void bring_motion(const Side& side, FaceVector<D>& velocity) const;
   double share_below(const Index<D>& face, double level) const;
   std::ptrdiff_t outward(const Side& side) const;
 
   const Grid<D>* grid_;
   double gravity_, density_;
   std::vector<Side> sides_;
-  FaceVector<D> speed_;     ///< of the faces of walls, along their axis [m/s]
+  /// Of the faces of walls, along their axis; in the cells behind also of what comes in [m/s].
+  FaceVector<D> speed_;
   FaceVector<D> inflow_;    ///< [-]
   FaceVector<D> pressure_;  ///< of given levels [Pa]
 };

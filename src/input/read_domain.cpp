@@ -33,6 +33,12 @@ bool read_corners(Section& section, DomainOptions& domain) {
   return true;
 }
 
+/// Of a list; 0 of anything else.
+std::size_t entries(const Value* value) {
+  const List* list = value ? std::get_if<List>(&value->data) : nullptr;
+  return list ? list->size() : 0;
+}
+
 /// Number of cells of the given size along one axis; 0 with a message when they do not fit.
 int fitting_cells(Section& section, double length, double size, std::string_view axis) {
   if (!(size > 0.0)) {
@@ -128,6 +134,9 @@ void read_gravity(Section& section, DomainOptions& domain) {
   if (value && std::holds_alternative<List>(value->data)) {
     gravity = section.numbers("gravity", quantity::acceleration, axes);
     if (gravity.size() != axes) return;
+    if (gravity.back() > 0.0)
+      return section.fail("gravity", "it points upwards: a list is a vector, z upwards",
+                          fmt::format("Write {:g} for the last entry.", -gravity.back()));
   } else {
     const auto scalar = value
                             ? section.si(*value, section.name_of("gravity"), quantity::acceleration)
@@ -201,7 +210,7 @@ void read_domain(Section& root, CaseOptions& options) {
   if (!root.has("domain")) return;
   domain.dimension = section.integer(
       "dimension", {.lower = 2, .upper = 3, .reason = "2 is plane strain in x and z, 3 is x, y, z"},
-      2);
+      entries(section.raw("upper")) == 3 ? 3 : 2);
   Reading& reading = root.reading();
   reading.dimension = domain.dimension;
   const bool corners_known = read_corners(section, domain);

@@ -2,6 +2,7 @@
 
 #include <sys/resource.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "output/files.hpp"
@@ -57,6 +58,10 @@ rusage usage() {
   return own;
 }
 
+std::string dump(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 }  // namespace
 
 std::string to_json(const Summary& summary) {
@@ -90,11 +95,21 @@ std::string to_json(const Summary& summary) {
   json["gauges"] = gauges_of(summary.gauges);
   json["peak memory [bytes]"] = summary.peak_memory_bytes;
   // A title may hold bytes that are no UTF-8; they are replaced, not refused.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return dump(json);
 }
 
 void write_summary(const std::filesystem::path& folder, const Summary& summary, MPI_Comm comm) {
   on_rank_zero(comm, [&] { write_atomically(folder / "summary.json", to_json(summary)); });
+}
+
+void mark_failed(const std::filesystem::path& folder, const std::string& message) {
+  std::ifstream file(folder / "summary.json");
+  const Json last = Json::parse(file, nullptr, false);
+  Json json = {{"status", "failed"}, {"message", message}};
+  if (last.is_object())
+    for (const auto& [key, value] : last.items())
+      if (!json.contains(key)) json[key] = value;
+  write_atomically(folder / "summary.json", dump(json));
 }
 
 double peak_memory(MPI_Comm comm) {

@@ -61,6 +61,8 @@ std::string to_json(const Summary& summary);
 /// Replaces FOLDER/summary.json as a whole. Call it at the start too (status "running").
 /// Collective; rank 0's summary is written.
 void write_summary(const std::filesystem::path& folder, const Summary& summary, MPI_Comm comm);
+/// Says of the last summary that the run has failed since. Of one rank, the others may be gone.
+void mark_failed(const std::filesystem::path& folder, const std::string& message);
 
 /// Largest memory in use so far, summed over ranks [bytes]. Collective.
 double peak_memory(MPI_Comm comm);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/errors.hpp"
+#include "flow/flow_checks.hpp"
 #include "flow/flow_gauges.hpp"
 #include "run/material_gauge.hpp"
 
@@ -51,14 +52,14 @@ template <int D>
 std::vector<double> read_soil(World<D>& world, const GaugeOptions& gauge) {
   std::vector<double> values = read_material(world.grid(), *world.soil(),
                                              material_quantity(gauge.quantity), place_of<D>(gauge));
-  if (values.empty() && !world.stages().empty())  // not yet placed, or taken out
+  // Not yet placed or taken out, or it has left the domain.
+  if (values.empty() && (!world.stages().empty() || world.clock().step() > 0))
     return std::vector<double>(gauge_columns(gauge, D).size(),
                                std::numeric_limits<double>::quiet_NaN());
   if (values.empty())
     throw InputError(fmt::format(
-        "gauge {}: no soil at ({:g}, {:g}, {:g}) m at the start. Put `at` inside a soil body "
-        "or on its surface.",
-        gauge.name, gauge.at[0], gauge.at[1], gauge.at[2]));
+        "gauge {}: no soil at {} at the start. Put `at` inside a soil body or on its surface.",
+        gauge.name, place_text(place_of<D>(gauge))));
   if (gauge.quantity == GaugeQuantity::settlement) return {-values[D - 1]};
   return values;
 }

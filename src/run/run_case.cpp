@@ -52,14 +52,18 @@ CaseEstimate estimate_in(const CaseOptions& options, MPI_Comm comm,
   const double end = options.time.end;
   if (world.flow()) {
     estimate.flow_step = world.stable_step();
-    estimate.cpu_seconds +=
+    *estimate.cpu_seconds +=
         end / estimate.flow_step * static_cast<double>(estimate.cells) * flow_cell_step;
   }
   if (world.soil()) {
-    estimate.soil_step = world.soil()->stable_step();
     estimate.points = world.soil()->totals().points;
-    estimate.cpu_seconds +=
-        end / estimate.soil_step * static_cast<double>(estimate.points) * soil_point_step;
+    if (takes_implicit_steps(*options.soil)) {
+      estimate.cpu_seconds.reset();
+    } else {
+      estimate.soil_step = world.soil()->stable_step();
+      *estimate.cpu_seconds +=
+          end / estimate.soil_step * static_cast<double>(estimate.points) * soil_point_step;
+    }
   }
   estimate.warnings = world.warnings();
   estimate.memory = peak_memory(comm);

@@ -29,11 +29,12 @@ ExitCode run_case(const CaseOptions& options, const RunSettings& settings);
 /// What a run would cost, for `mudlark check`.
 struct CaseEstimate {
   double flow_step = 0.0;  ///< first stable flow step [s], 0 without flow
-  double soil_step = 0.0;  ///< first stable soil step [s], 0 without soil
+  double soil_step = 0.0;  ///< first stable soil step [s], 0 without soil or without bound
   long long cells = 0;
-  long long points = 0;               ///< material points
-  double memory = 0.0;                ///< [bytes], all ranks together
-  double cpu_seconds = 0.0;           ///< rough cost of the whole run on one core
+  long long points = 0;  ///< material points
+  double memory = 0.0;   ///< [bytes], all ranks together
+  /// Rough cost of the whole run on one core; of implicit steps nobody knows their number.
+  std::optional<double> cpu_seconds = 0.0;
   std::vector<std::string> warnings;  ///< what the case asks of methods that cannot do it well
 };
 

@@ -6,6 +6,7 @@
 
 #include "base/version.hpp"
 #include "flow/flow_checks.hpp"
+#include "output/summary.hpp"
 #include "run/progress.hpp"
 
 namespace mudlark {
@@ -157,6 +158,12 @@ ExitCode run_to_end(World<D>& world, Results<D>& results, const RunSettings& set
     results.log(message);
     results.write_summary(world, "diverged", message);
     throw DivergenceError(message);
+  } catch (const std::exception& error) {
+    if (first) {
+      results.log(error.what());
+      mark_failed(results.folder(), error.what());
+    }
+    throw;
   }
 }
 

@@ -170,6 +170,26 @@ TEST(FlowSides, ALongWaveComesInAndLeaves) {
   EXPECT_NEAR(ledger.present, ledger.initial - ledger.outflow, 1e-12);
 }
 
+// Into a pool that lies lower water comes in above its surface and falls along the side, from rest:
+// never faster than from the level outside to the floor.
+TEST(FlowSides, WhatFallsInFallsFreely) {
+  FlowOptions options = water();
+  options.bodies = {water_box({-1.0, -1.0, -1.0}, {99.0, 99.0, 0.12})};
+  options.sides = {wave_side(0, StillWater{})};
+  DomainOptions domain = flow_domain({80, 32, 1}, {1.0, 0.4, 1.0}, {0.0, -9.81, 0.0});
+  domain.walls[0] = {Wall::slip, Wall::slip};
+  domain.walls[1][1] = Wall::open;
+  FlowRun<2> run(domain, options);
+  double fastest = 0.0;
+  while (run.time < 1.5) {
+    run.step(std::min(0.005, run.flow.stable_step(run.medium)));
+    fastest = std::max(fastest, run.flow.max_speed().speed);
+  }
+  std::printf("fastest water beside the side: %.3f m/s\n", fastest);
+  EXPECT_LT(fastest, std::sqrt(2.0 * 9.81 * 0.2));
+  EXPECT_GT(run.flow.ledger().present, 0.15);
+}
+
 TEST(FlowSides, ADischargeWithoutWaterIsAnError) {
   FlowOptions options = water();
   options.sides = {opening(0, SideFlow::discharge, Varying(0.01))};
