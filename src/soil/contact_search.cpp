@@ -1,15 +1,15 @@
-/// Which material points touch rigid bodies, and which faces hear of it.
+#include "soil/contact_search.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 #include "soil/point_stencil.hpp"
-#include "soil/solid_contact.hpp"
 
 namespace mudlark {
 namespace {
 
-/// Gap up to which a point is watched, in point spacings.
-constexpr double watched_gap = 0.1;
+/// Contacts with less than this share of their weights on faces with soil are none.
+constexpr double smallest_sum = 0.1;
 /// How far beside a contact its faces may lie, on a surface of any direction [cells].
 constexpr double widest_reach = 2.5;
 /// A contact keeps all its faces where less than this share of their weights is in front of the
@@ -84,8 +84,8 @@ double depth_at(const Solid& solid, const Grid<D>& grid, const Vec<D>& contact,
 /// adhesion a point covers its volume over its thickness of the surface, fading from half a
 /// thickness away to one and a half, so that rows and random points alike cover it once.
 template <int D>
-bool SolidContact<D>::touch(double dt, const Solid& solid, const SoilParticles<D>& points,
-                            Contact& contact) const {
+bool ContactList<D>::touch(double dt, double watched_gap, const Solid& solid,
+                           const SoilParticles<D>& points, Contact<D>& contact) const {
   const std::size_t p = contact.point;
   const double volume = points.volume[p];
   const Vec<D> position = points.position_of(p);
@@ -112,7 +112,7 @@ bool SolidContact<D>::touch(double dt, const Solid& solid, const SoilParticles<D
 
 /// Does the surface go on around a contact as far as its faces lie, hardly bent?
 template <int D>
-bool SolidContact<D>::far_from_edges(const Solid& solid, const Contact& contact) const {
+bool ContactList<D>::far_from_edges(const Solid& solid, const Contact<D>& contact) const {
   const double cell = grid_->smallest_spacing();
   const auto tangents = along(contact.normal);
   for (int corner = 0; corner < (1 << (D - 1)); ++corner) {
@@ -130,8 +130,8 @@ bool SolidContact<D>::far_from_edges(const Solid& solid, const Contact& contact)
 /// full. The points along the edge hold all faces that they reach, and with those beyond it the
 /// body was a cell wider all round (decision 0089). The impulse acts at the centre of what is left.
 template <int D>
-void SolidContact<D>::keep_covered(int component, std::size_t first, const Solid& solid,
-                                   Contact& contact) {
+void ContactList<D>::keep_covered(int component, std::size_t first, const Solid& solid,
+                                  Contact<D>& contact) {
   double sum = 0.0;
   Vec<D> centre{};
   for (std::size_t i = first; i < nodes_.size(); ++i) {
@@ -155,7 +155,7 @@ void SolidContact<D>::keep_covered(int component, std::size_t first, const Solid
 /// up the divergence of stress and do not integrate it; faces that the outermost points hardly
 /// reach would need stresses there that oscillate (decision 0050).
 template <int D>
-void SolidContact<D>::list_nodes(const Vec<D>& position, const Solid& solid, Contact& contact) {
+void ContactList<D>::list_nodes(const Vec<D>& position, const Solid& solid, Contact<D>& contact) {
   const Vec<D> per_spacing = inverse(grid_->spacing());
   const Vec<D> deeper = position + 0.5 * contact.thickness * contact.normal;
   const bool whole = !solid.options().sharp_edges || far_from_edges(solid, contact);
@@ -201,24 +201,24 @@ void SolidContact<D>::list_nodes(const Vec<D>& position, const Solid& solid, Con
   contact.nodes[D] = nodes_.size();
 }
 
-/// Lists the contacts of all points, each with its impulse of the last step for a start.
 template <int D>
-void SolidContact<D>::find(double dt, const std::vector<BodyConstants>& constants,
-                           const std::vector<Solid>& solids,
-                           std::vector<SoilParticles<D>>& bodies) {
+void ContactList<D>::find(double dt, double watched_gap,
+                          const std::vector<BodyConstants>& constants,
+                          const std::vector<Solid>& solids,
+                          const std::vector<SoilParticles<D>>& bodies) {
   contacts_.clear(), nodes_.clear();
   const double reach = 2.0 * grid_->smallest_spacing();
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    SoilParticles<D>& points = bodies[b];
+    const SoilParticles<D>& points = bodies[b];
     for (std::size_t p = 0; p < points.size(); ++p) {
       const Point3 place = to_point3(points.position_of(p));
       bool known = false;  // the last step's impulse belongs to one contact
       for (std::size_t s = 0; s < solids.size(); ++s) {
         if (!solids[s].near(place, reach)) continue;
-        Contact contact;
+        Contact<D> contact;
         contact.body = b, contact.point = p, contact.solid = s;
         contact.wet = constants[b].water_density > 0.0;
-        if (!touch(dt, solids[s], points, contact)) continue;
+        if (!touch(dt, watched_gap, solids[s], points, contact)) continue;
         for (int a = 0; a < D && !known; ++a) contact.impulse[a] = dt * points.contact_force[a][p];
         if (!known) contact.seal = dt * points.contact_force[D][p];
         known = true;
@@ -226,22 +226,103 @@ void SolidContact<D>::find(double dt, const std::vector<BodyConstants>& constant
         contacts_.push_back(contact);
       }
     }
-    for (int a = 0; a <= D; ++a)
-      std::fill(points.contact_force[a].begin(), points.contact_force[a].end(), 0.0);
   }
 }
 
-template bool SolidContact<2>::touch(double, const Solid&, const SoilParticles<2>&, Contact&) const;
-template bool SolidContact<3>::touch(double, const Solid&, const SoilParticles<3>&, Contact&) const;
-template bool SolidContact<3>::far_from_edges(const Solid&, const Contact&) const;
-template void SolidContact<3>::keep_covered(int, std::size_t, const Solid&, Contact&);
-template bool SolidContact<2>::far_from_edges(const Solid&, const Contact&) const;
-template void SolidContact<2>::keep_covered(int, std::size_t, const Solid&, Contact&);
-template void SolidContact<2>::list_nodes(const Vec<2>&, const Solid&, Contact&);
-template void SolidContact<3>::list_nodes(const Vec<3>&, const Solid&, Contact&);
-template void SolidContact<2>::find(double, const std::vector<BodyConstants>&,
-                                    const std::vector<Solid>&, std::vector<SoilParticles<2>>&);
-template void SolidContact<3>::find(double, const std::vector<BodyConstants>&,
-                                    const std::vector<Solid>&, std::vector<SoilParticles<3>>&);
+template <int D>
+void ContactList<D>::keep_faces_with_soil(const FaceVector<D>& soil) {
+  std::size_t kept = 0, kept_nodes = 0;
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    Contact<D> contact = contacts_[c];
+    const std::size_t start = kept_nodes;
+    bool alone = false;
+    for (int d = 0; d < D; ++d) {
+      const auto u = static_cast<std::size_t>(d);
+      const double* marks = soil[d].data();
+      const std::size_t first = kept_nodes;
+      double sum = 0.0;
+      for (std::size_t i = contacts_[c].nodes[u]; i < contacts_[c].nodes[u + 1]; ++i) {
+        if (marks[nodes_[i].at] < 0.0) continue;
+        sum += nodes_[i].weight;
+        nodes_[kept_nodes++] = nodes_[i];
+      }
+      alone = alone || sum < smallest_sum;
+      for (std::size_t i = first; i < kept_nodes; ++i) nodes_[i].weight /= sum;
+      contact.nodes[u] = first, contact.nodes[u + 1] = kept_nodes;
+    }
+    if (alone)
+      kept_nodes = start;
+    else
+      contacts_[kept++] = contact;
+  }
+  contacts_.resize(kept), nodes_.resize(kept_nodes);
+}
+
+template <int D>
+void ContactList<D>::note_forces(double dt, std::vector<SoilParticles<D>>& bodies) const {
+  for (auto& points : bodies)
+    for (int a = 0; a <= D; ++a)
+      std::fill(points.contact_force[a].begin(), points.contact_force[a].end(), 0.0);
+  for (const Contact<D>& contact : contacts_) {
+    auto& force = bodies[contact.body].contact_force;
+    for (int a = 0; a < D; ++a) force[a][contact.point] += contact.impulse[a] / dt;
+    force[D][contact.point] += contact.seal / dt;
+  }
+}
+
+template <int D>
+Vec<D> ContactList<D>::at_contact(const FaceVector<D>& field, const Contact<D>& contact) const {
+  Vec<D> sum;
+  for (int d = 0; d < D; ++d) {
+    const double* faces = field[d].data();
+    for_each_node(d, contact, [&](std::ptrdiff_t at, double w) { sum[d] += w * faces[at]; });
+  }
+  return sum;
+}
+
+template <int D>
+Vec<D> ContactList<D>::velocity_of(const Solid& solid, const Contact<D>& contact) {
+  Vec<D> velocity;
+  for (int d = 0; d < D; ++d)
+    velocity[d] =
+        to_axes<D>(solid.velocity_at(to_space(contact.places[static_cast<std::size_t>(d)])))[d];
+  return velocity;
+}
+
+template <int D>
+Vec<D> Contact<D>::bounded(const Vec<D>& trial) const {
+  const double along = dot(trial, normal), pressed = std::max(-suction, along);
+  const double largest = adhesion + (pressed > 0.0 ? friction * pressed : 0.0);
+  Vec<D> tangent = trial - along * normal;
+  const double size = norm(tangent);
+  if (size > largest) tangent *= largest / size;
+  return pressed * normal + tangent;
+}
+
+template <int D>
+void ContactLoad::add_answer(const Contact<D>& contact, const Vec<D>& impulse_on_soil,
+                             const Solid& solid) {
+  impulse -= to_space(impulse_on_soil);
+  for (int d = 0; d < D; ++d) {
+    Vec<D> part{};
+    part[d] = -impulse_on_soil[d];
+    moment += (to_space(contact.places[static_cast<std::size_t>(d)]) - solid.centre())
+                  .cross(to_space(part));
+  }
+}
+
+void add_over_ranks(MPI_Comm comm, std::vector<ContactLoad>& loads) {
+  static_assert(sizeof(ContactLoad) == 6 * sizeof(double));
+  if (loads.empty()) return;
+  MPI_Allreduce(MPI_IN_PLACE, loads.front().impulse.data(), 6 * static_cast<int>(loads.size()),
+                MPI_DOUBLE, MPI_SUM, comm);
+}
+
+template struct Contact<2>;
+template struct Contact<3>;
+template class ContactList<2>;
+template class ContactList<3>;
+template void ContactLoad::add_answer(const Contact<2>&, const Vec<2>&, const Solid&);
+template void ContactLoad::add_answer(const Contact<3>&, const Vec<3>&, const Solid&);
 
 }  // namespace mudlark

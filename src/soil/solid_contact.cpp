@@ -15,20 +15,8 @@ namespace {
 constexpr int sweeps = 4;
 /// Faces with less than this share of a cell's volume have no soil.
 constexpr double lightest_face = 1e-12;
-/// Contacts with less than this share of their weights on faces with soil are none.
-constexpr double smallest_sum = 0.1;
-
-/// Part of a trial impulse that is allowed: pressure, or as much pull as there is suction, and
-/// along the surface at most friction times pressure and the adhesion (Coulomb).
-template <int D, class Contact>
-Vec<D> bounded(const Vec<D>& trial, const Contact& contact) {
-  const double along = dot(trial, contact.normal), pressed = std::max(-contact.suction, along);
-  const double largest = contact.adhesion + (pressed > 0.0 ? contact.friction * pressed : 0.0);
-  Vec<D> tangent = trial - along * contact.normal;
-  const double size = norm(tangent);
-  if (size > largest) tangent *= largest / size;
-  return pressed * contact.normal + tangent;
-}
+/// Gap up to which a point is watched, in point spacings.
+constexpr double watched_gap = 0.1;
 
 }  // namespace
 
@@ -36,13 +24,13 @@ template <int D>
 SolidContact<D>::SolidContact(const SoilSides<D>& sides, const SoilOptions& options)
     : sides_(&sides),
       grid_(&sides.grid()),
-      kernel_(options.kernel),
       inertia_(options.mass_scaling),
       exchanges_(exchanges_halos(*grid_)),
       wet_(std::any_of(
           options.bodies.begin(), options.bodies.end(),
           [](const SoilBody& body) { return body.pore_water == PoreWater::two_phase; })),
       halo_(*grid_),
+      list_(*grid_, options.kernel),
       velocity_(*grid_, "contact velocity", "m/s"),
       slip_(*grid_, "contact slip of water", "m/s"),
       mobility_(*grid_, "contact mobility", "1/kg"),
@@ -79,15 +67,6 @@ template <class F>
 void SolidContact<D>::for_each_face(int axis, F&& f) const {
   for_each(solved_faces(*sides_, axis).intersected(box_),
            [&](const Index<D>& face) { f(grid_->offset(face)); });
-}
-
-/// Calls f(offset, weight) for the faces of one component around a contact.
-template <int D>
-template <class F>
-void SolidContact<D>::for_each_node(int axis, const Contact& contact, F&& f) const {
-  const auto u = static_cast<std::size_t>(axis);
-  for (std::size_t i = contact.nodes[u]; i < contact.nodes[u + 1]; ++i)
-    f(nodes_[i].at, nodes_[i].weight);
 }
 
 template <int D>
@@ -165,57 +144,19 @@ void SolidContact<D>::for_each_wall_face(F&& f) const {
                            [&](int, const SideNode&, const Index<D>& face) { f(axis, face); });
 }
 
-/// Keeps the faces with soil, makes their weights add up to one, and drops contacts without any.
-template <int D>
-void SolidContact<D>::keep_faces_with_soil() {
-  std::size_t kept = 0, kept_nodes = 0;
-  for (std::size_t c = 0; c < contacts_.size(); ++c) {
-    Contact contact = contacts_[c];
-    const std::size_t start = kept_nodes;
-    bool alone = false;
-    for (int d = 0; d < D; ++d) {
-      const auto u = static_cast<std::size_t>(d);
-      const double* soil = mobility_[d].data();
-      const std::size_t first = kept_nodes;
-      double sum = 0.0;
-      for (std::size_t i = contacts_[c].nodes[u]; i < contacts_[c].nodes[u + 1]; ++i) {
-        if (soil[nodes_[i].at] < 0.0) continue;
-        sum += nodes_[i].weight;
-        nodes_[kept_nodes++] = nodes_[i];
-      }
-      alone = alone || sum < smallest_sum;
-      for (std::size_t i = first; i < kept_nodes; ++i) nodes_[i].weight /= sum;
-      contact.nodes[u] = first, contact.nodes[u + 1] = kept_nodes;
-    }
-    if (alone)
-      kept_nodes = start;
-    else
-      contacts_[kept++] = contact;
-  }
-  contacts_.resize(kept), nodes_.resize(kept_nodes);
-}
-
 /// Puts an impulse on the faces around a contact, and its opposite on the body; the sealing one
 /// stays between water and grains.
 template <int D>
-void SolidContact<D>::give(const Contact& contact, const Vec<D>& impulse, double seal,
+void SolidContact<D>::give(const Contact<D>& contact, const Vec<D>& impulse, double seal,
                            const Solid& solid) {
   for (int d = 0; d < D; ++d) {
     double *faces = impulse_[d].data(), *seals = seal_[d].data();
-    for_each_node(d, contact, [&](std::ptrdiff_t at, double w) {
+    list_.for_each_node(d, contact, [&](std::ptrdiff_t at, double w) {
       faces[at] += w * impulse[d];
       if (contact.wet) seals[at] += w * seal * contact.normal[d];
     });
   }
-  const Eigen::Vector3d back = -to_space(impulse);
-  Load& load = loads_[contact.solid];
-  load.impulse += back;
-  for (int d = 0; d < D; ++d) {
-    Vec<D> part{};
-    part[d] = -impulse[d];
-    load.moment += (to_space(contact.places[static_cast<std::size_t>(d)]) - solid.centre())
-                       .cross(to_space(part));
-  }
+  loads_[contact.solid].add_answer(contact, impulse, solid);
 }
 
 /// An impulse that every contact may give at once without any of them giving too much: the inverse
@@ -224,10 +165,11 @@ void SolidContact<D>::give(const Contact& contact, const Vec<D>& impulse, double
 template <int D>
 void SolidContact<D>::set_stiffness(const std::vector<Solid>& solids) {
   reduced_.assign(2 * solids.size(), 0.0);
-  for (const Contact& contact : contacts_) {
+  for (const Contact<D>& contact : list_.contacts()) {
     for (int d = 0; d < D; ++d) {
       double* faces = impulse_[d].data();
-      for_each_node(d, contact, [&](std::ptrdiff_t at, double w) { faces[at] += std::abs(w); });
+      list_.for_each_node(d, contact,
+                          [&](std::ptrdiff_t at, double w) { faces[at] += std::abs(w); });
     }
     reduced_[2 * contact.solid] += 1.0;
     reduced_[2 * contact.solid + 1] +=
@@ -245,7 +187,7 @@ void SolidContact<D>::set_stiffness(const std::vector<Solid>& solids) {
   MPI_Allreduce(MPI_IN_PLACE, reduced_.data(), static_cast<int>(reduced_.size()), MPI_DOUBLE,
                 MPI_SUM, grid_->comm());
   const auto inverse_of = [](double sum) { return sum > 0.0 ? 1.0 / sum : 0.0; };
-  for (Contact& contact : contacts_) {
+  for (Contact<D>& contact : list_.contacts()) {
     const Solid& solid = solids[contact.solid];
     const double arm = (to_space(contact.place) - solid.centre()).norm();
     const double body = solid.mobility() * reduced_[2 * contact.solid] +
@@ -258,39 +200,28 @@ void SolidContact<D>::set_stiffness(const std::vector<Solid>& solids) {
 
 /// Largest component of a positive field around a contact, weighted by the size of its weights.
 template <int D>
-double SolidContact<D>::largest_sum(const FaceVector<D>& field, const Contact& contact) const {
+double SolidContact<D>::largest_sum(const FaceVector<D>& field, const Contact<D>& contact) const {
   double largest = 0.0;
   for (int d = 0; d < D; ++d) {
     const double* faces = field[d].data();
     double sum = 0.0;
-    for_each_node(d, contact, [&](std::ptrdiff_t at, double w) { sum += std::abs(w) * faces[at]; });
+    list_.for_each_node(d, contact,
+                        [&](std::ptrdiff_t at, double w) { sum += std::abs(w) * faces[at]; });
     largest = std::max(largest, sum);
   }
   return largest;
 }
 
-template <int D>
-Vec<D> SolidContact<D>::at_contact(const FaceVector<D>& field, const Contact& contact) const {
-  Vec<D> sum;
-  for (int d = 0; d < D; ++d) {
-    const double* faces = field[d].data();
-    for_each_node(d, contact, [&](std::ptrdiff_t at, double w) { sum[d] += w * faces[at]; });
-  }
-  return sum;
-}
-
 /// One sweep of Jacobi's iteration over all contacts, with the velocities that the last one left.
 template <int D>
 void SolidContact<D>::sweep(const std::vector<Solid>& solids) {
-  for (Contact& contact : contacts_) {
+  for (Contact<D>& contact : list_.contacts()) {
     const Solid& solid = solids[contact.solid];
-    Vec<D> body;
-    for (int d = 0; d < D; ++d)
-      body[d] =
-          to_axes<D>(solid.velocity_at(to_space(contact.places[static_cast<std::size_t>(d)])))[d];
-    const Vec<D> miss = at_contact(velocity_, contact) - body + contact.approach * contact.normal;
-    const Vec<D> impulse = bounded(contact.impulse - contact.stiffness * miss, contact);
-    const double leak = contact.wet ? dot(at_contact(slip_, contact), contact.normal) : 0.0;
+    const Vec<D> miss = list_.at_contact(velocity_, contact) -
+                        ContactList<D>::velocity_of(solid, contact) +
+                        contact.approach * contact.normal;
+    const Vec<D> impulse = contact.bounded(contact.impulse - contact.stiffness * miss);
+    const double leak = contact.wet ? dot(list_.at_contact(slip_, contact), contact.normal) : 0.0;
     const double seal = contact.seal - contact.seal_stiffness * leak;
     give(contact, impulse - contact.impulse, seal - contact.seal, solid);
     contact.impulse = impulse, contact.seal = seal;
@@ -314,17 +245,10 @@ void SolidContact<D>::spread(std::vector<Solid>& solids) {
   clear(impulse_);
   complete(velocity_, true);
   if (wet_) clear(seal_), complete(slip_, true);
-  reduced_.resize(6 * solids.size());
+  all_loads_ = loads_;
+  add_over_ranks(grid_->comm(), all_loads_);
   for (std::size_t s = 0; s < solids.size(); ++s)
-    for (std::size_t a = 0; a < 3; ++a) {
-      reduced_[6 * s + a] = loads_[s].impulse[static_cast<int>(a)];
-      reduced_[6 * s + 3 + a] = loads_[s].moment[static_cast<int>(a)];
-    }
-  MPI_Allreduce(MPI_IN_PLACE, reduced_.data(), static_cast<int>(reduced_.size()), MPI_DOUBLE,
-                MPI_SUM, grid_->comm());
-  for (std::size_t s = 0; s < solids.size(); ++s)
-    solids[s].set_impulse(Eigen::Vector3d(reduced_.data() + 6 * s),
-                          Eigen::Vector3d(reduced_.data() + 6 * s + 3));
+    solids[s].set_impulse(all_loads_[s].impulse, all_loads_[s].moment);
 }
 
 /// Contacts of the step with the impulses that they start with; false when there are none.
@@ -334,16 +258,19 @@ bool SolidContact<D>::prepare(double dt, const std::vector<BodyConstants>& const
                               std::vector<SoilParticles<D>>& bodies,
                               const NodeField<NodeSums, D>& sums) {
   set_box(solids, active);
-  find(dt, constants, solids, bodies);
+  list_.find(dt, watched_gap, constants, solids, bodies);
   for (FaceVector<D>* field : {&force_, &impulse_, &seal_}) clear(*field);
-  any_ = max_over_ranks(*grid_, contacts_.empty() ? 0.0 : 1.0) > 0.0;
-  if (!any_) return false;
+  any_ = max_over_ranks(*grid_, list_.contacts().empty() ? 0.0 : 1.0) > 0.0;
+  if (!any_) {
+    list_.note_forces(dt, bodies);
+    return false;
+  }
   read_mobilities(dt, sums);
-  keep_faces_with_soil();
+  list_.keep_faces_with_soil(mobility_);
   set_stiffness(solids);
-  loads_.assign(solids.size(), Load{});
-  for (Contact& contact : contacts_) {
-    contact.impulse = bounded(contact.impulse, contact);
+  loads_.assign(solids.size(), ContactLoad{});
+  for (Contact<D>& contact : list_.contacts()) {
+    contact.impulse = contact.bounded(contact.impulse);
     give(contact, contact.impulse, contact.seal, solids[contact.solid]);
   }
   return true;
@@ -374,7 +301,7 @@ void SolidContact<D>::apply(double dt, const std::vector<BodyConstants>& constan
   spread(solids);
   sweep_and_spread(solids);
   write_back(dt, sums, motion);
-  note_forces(dt, bodies);
+  list_.note_forces(dt, bodies);
 }
 
 template <int D>
@@ -410,7 +337,7 @@ void SolidContact<D>::settle(double dt, std::vector<Solid>& solids,
       velocity[d].data()[at] += std::max(0.0, mobility_[d].data()[at]) * rest;
       force = impulse / dt;
     });
-  note_forces(dt, bodies);
+  list_.note_forces(dt, bodies);
 }
 
 template <int D>
@@ -429,16 +356,6 @@ void SolidContact<D>::write_back(double dt, NodeField<NodeSums, D>& sums,
       sums[static_cast<std::size_t>(d)].data()[at].mixture_force += impulse / dt;
       force_[d].data()[at] = impulse / dt;
     });
-}
-
-/// The impulses wait with the points for the next step.
-template <int D>
-void SolidContact<D>::note_forces(double dt, std::vector<SoilParticles<D>>& bodies) const {
-  for (const Contact& contact : contacts_) {
-    auto& force = bodies[contact.body].contact_force;
-    for (int a = 0; a < D; ++a) force[a][contact.point] += contact.impulse[a] / dt;
-    force[D][contact.point] += contact.seal / dt;
-  }
 }
 
 template class SolidContact<2>;
