@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 """Compares the bearing capacity of strip footings with the exact theory of plasticity, prints and draws it.
 
-    mudlark run cases/footing/clay.toml        (and clay_rough.toml, sand.toml)
+    mudlark run cases/footing/clay.toml        (and clay_rough.toml, clay_implicit.toml, sand.toml)
     /usr/bin/python3 cases/footing/compare.py [--results results] [--picture FILE.png]
 
-- clay, smooth and rough: q = N_c s_u, N_c = 2 + pi (Prandtl 1921); tolerance 3 %.
+- clay, smooth and rough, and smooth in implicit steps: q = N_c s_u, N_c = 2 + pi (Prandtl 1921); tolerance 3 %.
 - sand, smooth, phi = 30 degrees, no cohesion, no surcharge: q = gamma B N_gamma / 2, N_gamma = 7.653 (Martin 2005);
   tolerance 8 %.
 
@@ -32,6 +32,7 @@ STRENGTH = 10e3                                    # s_u [Pa]
 WEIGHT = (1 - 0.4) * 2650 * 9.81                   # gamma of the dry sand [N/m3]
 CASES = {"clay": ("N_c, smooth", 2 + np.pi, STRENGTH, 0.03),
          "clay_rough": ("N_c, rough", 2 + np.pi, STRENGTH, 0.03),
+         "clay_implicit": ("N_c, implicit", 2 + np.pi, STRENGTH, 0.03),
          "sand": ("N_gamma, smooth", 7.653, WEIGHT * HALF_WIDTH, 0.08)}
 MOST_CLIMB = 0.02
 

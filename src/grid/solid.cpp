@@ -156,8 +156,8 @@ void Solid::begin_outer_step() {
 
 void Solid::begin_step(double time, double dt, bool held) {
   impulse_.setZero(), moment_.setZero(), collision_.setZero();
-  if (const auto* motion = std::get_if<FreeSolid>(&options_.motion)) {
-    begin_free_step(*motion, time, dt);
+  if (free()) {
+    begin_free_step(time, dt);
   } else if (const auto* given = std::get_if<PrescribedSolid>(&options_.motion); given && !held) {
     const RigidVelocity motion_now = pose_.prescribed(*given, time, dt);
     predicted_velocity_ = motion_now.velocity, predicted_spin_ = motion_now.spin;
@@ -167,10 +167,40 @@ void Solid::begin_step(double time, double dt, bool held) {
   velocity_ = predicted_velocity_, spin_ = predicted_spin_;
 }
 
-void Solid::begin_free_step(const FreeSolid& motion, double time, double dt) {
-  const Vector force = mass_ * gravity_ + to_vector(values(motion.force, centre(), time)) + push_;
-  const Vector moment =
-      planar_rotation(values(motion.moment, centre(), time), dimension_) + turning_push_;
+Solid::Vector Solid::given_force(double time) const {
+  const auto* motion = std::get_if<FreeSolid>(&options_.motion);
+  if (!motion) return Vector::Zero();
+  return mass_ * gravity_ + to_vector(values(motion->force, centre(), time));
+}
+
+Solid::Vector Solid::given_moment(double time) const {
+  const auto* motion = std::get_if<FreeSolid>(&options_.motion);
+  if (!motion) return Vector::Zero();
+  return planar_rotation(values(motion->moment, centre(), time), dimension_);
+}
+
+Solid::Vector Solid::free_turns() const {
+  Vector free = Vector::Zero();
+  if (const auto* motion = std::get_if<FreeSolid>(&options_.motion)) {
+    const auto held = held_rotations(*motion, dimension_);
+    for (int a = 0; a < 3; ++a) free[a] = held[static_cast<std::size_t>(a)] ? 0.0 : 1.0;
+  }
+  return free;
+}
+
+void Solid::begin_static_step(double time, double dt, bool held) {
+  if (free()) stop();
+  begin_step(time, dt, held);
+  if (free()) stop();
+}
+
+void Solid::follow(const RigidVelocity& motion, const Vector& impulse, const Vector& moment) {
+  impulse_ = impulse, moment_ = moment;
+  if (free()) velocity_ = motion.velocity, spin_ = motion.spin;
+}
+
+void Solid::begin_free_step(double time, double dt) {
+  const Vector force = given_force(time) + push_, moment = given_moment(time) + turning_push_;
   predicted_velocity_ = velocity_ + dt / inertial_mass() * free_axes_.cwiseProduct(force);
   predicted_spin_ = turning_ * (inertia_now_ * spin_) + dt * (answer_ * moment);
 }

@@ -50,6 +50,16 @@ class Solid {
   RigidVelocity response(const Vector& impulse, const Vector& moment) const;
   /// Impulse of other bodies and sides in the step, after all others.
   void collide(const Vector& impulse, const Vector& moment);
+  /// Opens a step without inertia: a free body waits for follow().
+  void begin_static_step(double time, double dt, bool held);
+  /// Weight and given force [N] at a time, and its moment about the centre [N m].
+  Vector given_force(double time) const;
+  Vector given_moment(double time) const;
+  /// 1 for axes along, and about, which a free body may move.
+  Vector free_axes() const { return free_axes_; }
+  Vector free_turns() const;
+  /// Velocity of a free body in a step without inertia, and the soil's impulse and its moment.
+  void follow(const RigidVelocity& motion, const Vector& impulse, const Vector& moment);
   /// Books the impulses of a step of dt [s].
   void book(double dt);
   /// Moves with the present velocity.
@@ -113,7 +123,7 @@ class Solid {
   Solid(const SolidOptions& options, int dimension, const Point3& gravity, double inertia_factor,
         const std::optional<SolidVolume>& volume);
   void set_mass(const FreeSolid& motion, const std::optional<SolidVolume>& volume);
-  void begin_free_step(const FreeSolid& motion, double time, double dt);
+  void begin_free_step(double time, double dt);
   void update_inertia();
   void set_added_mass();
   void watch_growth(const Vector& before, const Vector& turning_before);

@@ -211,10 +211,17 @@ void check_method(Section& root, const SoilOptions& soil, bool water_flows) {
         "= \"u-w-p\" and \"u-p\" are explicit in the skeleton). Leave formulation out of "
         "[[soil]], or write method = \"explicit\".");
   if (soil.solids.empty()) return;
-  if (implicit)
-    report.add(root.place("solid"),
-               "[[solid]] needs soil_solver.method = \"explicit\"\n  (implicit steps know no "
-               "contact yet). Slow motion: damping and mass_scaling under [soil_solver].");
+  for (const SolidOptions& solid : soil.solids)
+    if (const auto* motion = std::get_if<FreeSolid>(&solid.motion);
+        implicit && motion &&
+        (motion->velocity != FreeSolid{}.velocity ||
+         motion->angular_velocity != FreeSolid{}.angular_velocity))
+      report.add(root.place("solid"),
+                 fmt::format("solid \"{}\" starts with a velocity, and soil_solver.method = "
+                             "\"implicit\" has no inertia\n  (a free body is where forces on it "
+                             "balance). Leave velocity and angular_velocity out of its motion, or "
+                             "write method = \"explicit\".",
+                             solid.name));
   if (soil.formulation != Formulation::u_w)
     report.add(root.place("solid"),
                "[[solid]] needs formulation = \"u-w\" under [[soil]]\n  (the pore pressure of "

@@ -47,8 +47,6 @@ void check_method(Stage& stage, const SoilOptions& soil, bool water_flows) {
     if (soil.formulation != Formulation::u_w)
       section.fail("method", "implicit steps find pore pressure in their own way",
                    "Leave formulation out of [[soil]].");
-    if (!soil.solids.empty())
-      section.fail("method", "[[solid]] needs explicit steps: implicit ones know no contact yet");
     if (soil.load_form == LoadForm::facets)
       section.fail("method", "implicit steps load the soil by a virtual stress",
                    "Leave soil_solver.load_form out.");

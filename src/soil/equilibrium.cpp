@@ -23,9 +23,10 @@ template <int D>
 void SoilSolver<D>::find_equilibrium() {
   if (!options_.start_in_equilibrium) return;
   if (is_implicit()) {
+    solids_wait_ = true;
     sides_.hold_still(true);
     find_equilibrium_implicitly();
-    sides_.hold_still(false);
+    start_bodies_and_sides();
     return start_from_rest();
   }
   const EquilibriumStart& start = *options_.start_in_equilibrium;
@@ -60,11 +61,16 @@ auto SoilSolver<D>::seek_rest() -> Dampings {
 template <int D>
 void SoilSolver<D>::begin_at_rest(const Dampings& given) {
   options_.damping = given.both, options_.water_damping = given.water;
+  start_bodies_and_sides();
+  time_ = 0.0;
+  start_from_rest();
+}
+
+template <int D>
+void SoilSolver<D>::start_bodies_and_sides() {
   solids_wait_ = false;
   for (Solid& solid : solids_) solid.start(options_.start_in_equilibrium->reset_displacements);
   sides_.hold_still(false);
-  time_ = 0.0;
-  start_from_rest();
 }
 
 template <int D>
@@ -96,6 +102,8 @@ template SoilSolver<2>::Dampings SoilSolver<2>::seek_rest();
 template SoilSolver<3>::Dampings SoilSolver<3>::seek_rest();
 template void SoilSolver<2>::begin_at_rest(const Dampings&);
 template void SoilSolver<3>::begin_at_rest(const Dampings&);
+template void SoilSolver<2>::start_bodies_and_sides();
+template void SoilSolver<3>::start_bodies_and_sides();
 template void SoilSolver<2>::check_search(double, const Statics&) const;
 template void SoilSolver<3>::check_search(double, const Statics&) const;
 template void SoilSolver<2>::start_from_rest();

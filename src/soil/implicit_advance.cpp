@@ -18,6 +18,8 @@ constexpr double first_step = 10.0;
 /// A step is repeated in halves when its error exceeds the tolerance by this factor.
 constexpr double largest_excess = 5.0;
 constexpr int most_cuts = 12;
+/// Steps in which a body moves further are halved [cells].
+constexpr double longest_leap = 0.2;
 /// Strain of a step up to which the flow of water in its start's shape is good enough [-].
 constexpr double largest_strain = 0.02;
 /// Seepage faces are switched so many times in a step.
@@ -41,14 +43,15 @@ void SoilSolver<D>::begin_implicit_step(double dt) {
   gather_nodes();
   if (exchanges_halos(*grid_)) halo_.exchange(as_doubles<NodeSums, D>(sums_), node_sums);
   side_water_.begin_implicit_step(sides_, halo_, options_.kernel, points_);
+  for (Solid& solid : solids_) solid.begin_static_step(time_, dt, solids_wait_);
 }
 
 /// With the loads of the time `loads_of` [s].
 template <int D>
 ImplicitProblem<D> SoilSolver<D>::implicit_problem(const ImplicitSides<D>& sides, double loads_of,
                                                    double dt) {
-  return {*grid_, options_, constants_, laws_,  points_, sides, surface_.at(loads_of),
-          time_,  dt,       nullptr,    nullptr};
+  return {*grid_, options_, constants_, laws_,   points_, sides, surface_.at(loads_of),
+          time_,  dt,       nullptr,    nullptr, &solids_};
 }
 
 /// Solves a step, again as often as it takes seepage faces to be on the right side.
@@ -76,9 +79,26 @@ ImplicitOutcome SoilSolver<D>::solve_implicitly(ImplicitProblem<D> problem) {
   return outcome;
 }
 
+template <int D>
+void SoilSolver<D>::advance_in_halves(double dt, int cuts) {
+  advance_implicitly(0.5 * dt, cuts + 1);
+  advance_implicitly(0.5 * dt, cuts + 1);
+}
+
+/// Does a body move further in a step than its contacts are watched?
+template <int D>
+bool SoilSolver<D>::solids_leap(double dt) const {
+  const BoxShape domain{to_point3(grid_->lower()), to_point3(grid_->upper())};
+  return std::any_of(solids_.begin(), solids_.end(), [&](const Solid& solid) {
+    return dt * solid.largest_speed(domain) > longest_leap * grid_->smallest_spacing();
+  });
+}
+
 /// Solves a step; in two halves when it does not converge or is not accurate enough.
 template <int D>
 void SoilSolver<D>::advance_implicitly(double dt, int cuts) {
+  for (Solid& solid : solids_) solid.begin_static_step(time_, dt, solids_wait_);
+  if (cuts < most_cuts && solids_leap(dt)) return advance_in_halves(dt, cuts);  // as given
   redistribute();
   surface_.resample(active_);
   std::vector<SoilParticles<D>> before = points_;
@@ -91,18 +111,18 @@ void SoilSolver<D>::advance_implicitly(double dt, int cuts) {
   // Backward Euler: half the change of velocity times the step.
   const double error = 0.5 * dt * outcome.largest_change;
   const bool moving = next_step_ > 0.0;  // the first step has nothing to compare with
-  if (!outcome.converged || (moving && error > largest_excess * tolerance && cuts < most_cuts)) {
+  const bool coarse = (moving && error > largest_excess * tolerance) || solids_leap(dt);
+  if (!outcome.converged || (coarse && cuts < most_cuts)) {
     if (cuts == most_cuts)
       throw DivergenceError(fmt::format("soil: implicit step of {:.3g} s at t = {:.6g} s: {}", dt,
                                         time_, outcome.problem));
     ++implicit_effort_.repeated;
     points_ = std::move(before);
     side_water_.restore(side_water, sides_, halo_);
-    advance_implicitly(0.5 * dt, cuts + 1);
-    advance_implicitly(0.5 * dt, cuts + 1);
-    return;
+    return advance_in_halves(dt, cuts);
   }
   ++implicit_effort_.steps;
+  for (Solid& solid : solids_) solid.book(dt), solid.move(dt);
   time_ += dt;
   double factor = std::clamp(0.9 * std::sqrt(tolerance / std::max(error, 1e-300)), 0.3, 2.0);
   factor = std::min(factor, largest_strain / std::max(outcome.largest_strain, 1e-300));
@@ -120,6 +140,10 @@ template ImplicitOutcome SoilSolver<2>::solve_implicitly(ImplicitProblem<2>);
 template ImplicitOutcome SoilSolver<3>::solve_implicitly(ImplicitProblem<3>);
 template double SoilSolver<2>::outer_step() const;
 template double SoilSolver<3>::outer_step() const;
+template bool SoilSolver<2>::solids_leap(double) const;
+template bool SoilSolver<3>::solids_leap(double) const;
+template void SoilSolver<2>::advance_in_halves(double, int);
+template void SoilSolver<3>::advance_in_halves(double, int);
 template void SoilSolver<2>::advance_implicitly(double, int);
 template void SoilSolver<3>::advance_implicitly(double, int);
 

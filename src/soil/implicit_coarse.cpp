@@ -52,6 +52,7 @@ struct AxisTaps {
 template <int D>
 CoarseDisplacements<D>::CoarseDisplacements(const Grid<D>& grid, const UnknownPlaces& places,
                                             const std::vector<LinearPoint<D>>& points,
+                                            const ContactStiffness<D>& contacts,
                                             const std::array<std::vector<double>, D>& signs)
     : grid_(&grid) {
   for (int a = 0; a < D; ++a) {
@@ -66,6 +67,7 @@ CoarseDisplacements<D>::CoarseDisplacements(const Grid<D>& grid, const UnknownPl
   choose_splines(places);
   make_interpolation(places);
   make_stiffness(places, points, signs);
+  add_contacts(places, contacts, signs);
   make_solver();
 }
 
@@ -246,6 +248,25 @@ void CoarseDisplacements<D>::add_point(const UnknownPlaces& places, const Linear
 }
 
 /// Tells the stiffness which motions cost it nothing.
+/// P^T C P, with C the stiffness of the contacts on the fine grid and P the interpolation.
+template <int D>
+void CoarseDisplacements<D>::add_contacts(const UnknownPlaces& places,
+                                          const ContactStiffness<D>& contacts,
+                                          const std::array<std::vector<double>, D>& signs) {
+  if (!contacts.list) return;
+  MatHandle fine, coarse;
+  MatCreateAIJ(grid_->comm(), places.owned(), places.owned(), PETSC_DETERMINE, PETSC_DETERMINE, 0,
+               nullptr, 0, nullptr, fine.put());
+  MatSetOption(fine, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE);
+  std::array<const std::vector<PetscInt>*, D> numbers;
+  for (std::size_t d = 0; d < D; ++d) numbers[d] = &places.numbers(d);
+  contacts.add_to(fine, numbers, signs);
+  MatAssemblyBegin(fine, MAT_FINAL_ASSEMBLY);
+  MatAssemblyEnd(fine, MAT_FINAL_ASSEMBLY);
+  MatPtAP(fine, interpolation_, MAT_INITIAL_MATRIX, PETSC_DEFAULT, coarse.put());
+  MatAXPY(stiffness_, 1.0, coarse, DIFFERENT_NONZERO_PATTERN);
+}
+
 template <int D>
 void CoarseDisplacements<D>::add_rigid_motions() {
   std::vector<VecHandle> motions(D + D * (D - 1) / 2);

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "grid/grid.hpp"
+#include "soil/contact_stiffness.hpp"
 #include "soil/implicit_places.hpp"
 #include "soil/implicit_tangent.hpp"
 
@@ -19,6 +20,7 @@ class CoarseDisplacements {
   /// `places` of the grains' displacements on the fine grid. Collective.
   CoarseDisplacements(const Grid<D>& grid, const UnknownPlaces& places,
                       const std::vector<LinearPoint<D>>& points,
+                      const ContactStiffness<D>& contacts,
                       const std::array<std::vector<double>, D>& signs);
   CoarseDisplacements(const CoarseDisplacements&) = delete;
   CoarseDisplacements& operator=(const CoarseDisplacements&) = delete;
@@ -40,6 +42,8 @@ class CoarseDisplacements {
                       const std::array<std::vector<double>, D>& signs);
   void add_point(const UnknownPlaces& places, const LinearPoint<D>& point,
                  const std::array<std::vector<double>, D>& signs);
+  void add_contacts(const UnknownPlaces& places, const ContactStiffness<D>& contacts,
+                    const std::array<std::vector<double>, D>& signs);
   void add_rigid_motions();
   void make_solver();
 

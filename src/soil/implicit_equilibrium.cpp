@@ -65,6 +65,7 @@ void SoilSolver<D>::find_equilibrium_implicitly() {
         held_back[d].data()[i] = (1.0 - balanced - share) * first[d].data()[i];
     const ImplicitOutcome outcome = solve_implicitly(problem);
     if (outcome.converged && outcome.largest_strain < largest_strain) {
+      for (Solid& solid : solids_) solid.move(share * length);
       balanced += share;
       share *= 2.0;
       continue;

@@ -1,8 +1,10 @@
 #pragma once
 /// The linear system of a Newton iteration without a matrix: operator and preconditioner for
 /// PETSc's Krylov methods.
+#include <Eigen/LU>
 #include <memory>
 
+#include "soil/implicit_contact.hpp"
 #include "soil/implicit_multigrid.hpp"
 #include "soil/implicit_pressure.hpp"
 
@@ -18,8 +20,8 @@ template <int D>
 class ImplicitKrylov {
  public:
   /// `x`: a vector of all unknowns. Rows of cells are multiplied by `water_scale` [Pa/m].
-  ImplicitKrylov(const Grid<D>& grid, const ImplicitUnknowns<D>& unknowns, ::Vec x, double dt,
-                 double water_scale);
+  ImplicitKrylov(const Grid<D>& grid, const ImplicitUnknowns<D>& unknowns,
+                 ImplicitContact<D>& contact, ::Vec x, double dt, double water_scale);
   ImplicitKrylov(const ImplicitKrylov&) = delete;
   ImplicitKrylov& operator=(const ImplicitKrylov&) = delete;
 
@@ -35,16 +37,21 @@ class ImplicitKrylov {
  private:
   void make_drag();
   void find_flow();
+  void move_bodies(::Vec r, ::Vec x);
   void difference_push();
 
   const Grid<D>* grid_;
   const ImplicitUnknowns<D>* unknowns_;
+  ImplicitContact<D>* contact_;
   double dt_, water_scale_;
   UnknownPlaces grains_, water_, pressure_;
-  FaceVector<D> ways_, forces_;
+  FaceVector<D> ways_, forces_, seals_;
   CellField<D> cell_pressure_, flow_, storage_, pore_push_;
   VecHandle u_, w_, p_, f_u_, f_w_, f_p_;
-  VecHandle drag_;  ///< R [Pa s m^D / m2]
+  std::vector<double> bodies_, rests_;            ///< ways of rigid bodies, forces on them
+  Eigen::PartialPivLU<Eigen::MatrixXd> holding_;  ///< of them by the soil around
+  VecHandle drag_;                                ///< R [Pa s m^D / m2]
+  VecHandle resistance_;  ///< R with the diagonal of what sealed surfaces answer
   std::vector<LinearPoint<D>> frozen_;
   std::unique_ptr<PointOperator<D>> points_, frozen_points_;
   std::unique_ptr<DisplacementMultigrid<D>> displacement_;

@@ -51,14 +51,16 @@ template <int D>
 DisplacementMultigrid<D>::DisplacementMultigrid(const Grid<D>& grid,
                                                 const ImplicitUnknowns<D>& unknowns,
                                                 UnknownPlaces& places,
-                                                std::vector<LinearPoint<D>> points)
+                                                std::vector<LinearPoint<D>> points,
+                                                ContactStiffness<D> contacts)
     : grid_(&grid),
       places_(&places),
       points_(with_positive_tangents(std::move(points))),
       operator_(grid, points_),
+      contacts_(std::move(contacts)),
       way_(grid, "way", "m"),
       force_(grid, "force", "N"),
-      coarse_(grid, places, points_, unknowns.grain_sign) {
+      coarse_(grid, places, points_, contacts_, unknowns.grain_sign) {
   places.make_vector(residual_);
   places.make_vector(direction_);
   places.make_vector(product_);
@@ -66,6 +68,7 @@ DisplacementMultigrid<D>::DisplacementMultigrid(const Grid<D>& grid,
     mass_.add(grid, d, places.numbers(static_cast<std::size_t>(d)), places.first());
   force_.fill(0.0);
   operator_.add_stiffness_diagonal(pointers(force_));
+  contacts_.add_diagonal(force_);
   for (int d = 0; d < D; ++d) {  // a diagonal has no sign behind walls
     const auto& sign = unknowns.grain_sign[static_cast<std::size_t>(d)];
     for (std::size_t at = 0; at < sign.size(); ++at) force_[d].data()[at] *= sign[at];
@@ -80,6 +83,7 @@ void DisplacementMultigrid<D>::multiply(::Vec way, ::Vec force) {
   places_->to_places(way, pointers(way_));
   force_.fill(0.0);
   operator_.apply_stiffness(pointers(way_), pointers(force_));
+  contacts_.apply(way_, force_);
   places_->to_unknowns(pointers(std::as_const(force_)), force);
 }
 

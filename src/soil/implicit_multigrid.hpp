@@ -1,6 +1,7 @@
 #pragma once
 /// Preconditioner for the stiffness of the grains: two grids, none of them with a matrix of its own
 /// on the fine one.
+#include "soil/contact_stiffness.hpp"
 #include "soil/implicit_coarse.hpp"
 #include "soil/implicit_operator.hpp"
 #include "soil/implicit_spline_mass.hpp"
@@ -18,7 +19,8 @@ template <int D>
 class DisplacementMultigrid {
  public:
   DisplacementMultigrid(const Grid<D>& grid, const ImplicitUnknowns<D>& unknowns,
-                        UnknownPlaces& places, std::vector<LinearPoint<D>> points);
+                        UnknownPlaces& places, std::vector<LinearPoint<D>> points,
+                        ContactStiffness<D> contacts);
   DisplacementMultigrid(const DisplacementMultigrid&) = delete;
   DisplacementMultigrid& operator=(const DisplacementMultigrid&) = delete;
 
@@ -35,6 +37,7 @@ class DisplacementMultigrid {
   UnknownPlaces* places_;
   std::vector<LinearPoint<D>> points_;
   PointOperator<D> operator_;
+  ContactStiffness<D> contacts_;
   FaceVector<D> way_, force_;
   SplineMass<D> mass_;
   VecHandle residual_, direction_, product_;

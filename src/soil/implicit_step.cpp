@@ -8,6 +8,7 @@
 
 #include "base/errors.hpp"
 #include "parallel/collective_error.hpp"
+#include "soil/implicit_contact.hpp"
 #include "soil/implicit_krylov.hpp"
 #include "soil/implicit_matrix.hpp"
 #include "soil/implicit_points.hpp"
@@ -21,10 +22,29 @@ constexpr PetscInt largest_direct = 1500, largest_direct_layer = 30;
 constexpr double forcing = 1e-4;
 /// A preconditioner that needs more iterations than this is made anew for the present tangents.
 constexpr PetscInt most_before_renewal = 60;
+/// Passes of the contacts with rigid bodies; what they leave is taken up by the next step. One that
+/// would change the forces of contacts on faces by less than this share is none: where points are
+/// closer than faces, forces may be shared out among them in more than one way.
+constexpr int most_passes = 12;
+constexpr double smallest_change = 3e-5;
+/// What a later pass must reach of the residual that it starts with.
+constexpr double pass_tolerance = 1e-3;
 constexpr PetscInt krylov_restart = 60, most_krylov_iterations = 240;
 
 void check(PetscErrorCode code, const char* what) {
   if (code != 0) throw DivergenceError(fmt::format("PETSc failed to {} (error {})", what, code));
+}
+
+/// Does the direct solver lose? Not for small problems, nor for long and narrow ones, whose factors
+/// stay as narrow.
+template <int D>
+bool wants_iterations(const ImplicitProblem<D>& problem, const ImplicitUnknowns<D>& unknowns) {
+  if (problem.options.linear_solver != LinearSolver::automatic)
+    return problem.options.linear_solver == LinearSolver::iterative;
+  int longest = 1;
+  for (int a = 0; a < D; ++a) longest = std::max(longest, problem.grid.cells()[a]);
+  return problem.options.kernel == Kernel::composite && unknowns.total > largest_direct &&
+         unknowns.total > largest_direct_layer * longest;
 }
 
 /// The step as PETSc's nonlinear solver sees it.
@@ -35,17 +55,21 @@ struct Step {
   ImplicitUnknowns<D> unknowns;
   ImplicitFields<D> state, sums;
   ImplicitPoints<D> points;
+  bool iterative;  ///< Krylov iterations rather than a direct solver
+  ImplicitContact<D> contact;
   std::unique_ptr<ImplicitKrylov<D>> krylov;  ///< none: a direct solver
   std::string failure;                        ///< of a law in any trial, on this rank
 
   explicit Step(const ImplicitProblem<D>& given)
       : problem(given),
         halo(given.grid),
-        unknowns(
-            number_unknowns(given.sides.sides(), given.options.kernel, given.bodies, wet(given))),
+        unknowns(number_unknowns(given.sides.sides(), given.options.kernel, given.bodies,
+                                 wet(given), ImplicitContact<D>::freedoms(given))),
         state(given.grid),
         sums(given.grid),
-        points(given) {}
+        points(given),
+        iterative(wants_iterations(given, unknowns)),
+        contact(given, unknowns) {}
 
   static std::vector<bool> wet(const ImplicitProblem<D>& given) {
     std::vector<bool> all;
@@ -56,6 +80,7 @@ struct Step {
   bool evaluate(::Vec x, bool tangents) {
     state.load(problem.sides, halo, unknowns, x);
     const bool good = points.evaluate(state, tangents);
+    contact.evaluate(state, tangents);
     return max_over_ranks(problem.grid, good ? 0.0 : 1.0) == 0.0;
   }
 };
@@ -71,6 +96,7 @@ PetscErrorCode residual(SNES, ::Vec x, ::Vec f, void* context) {
   }
   step.sums.clear();
   step.points.add_residual(step.state, step.sums);
+  step.contact.add_residual(step.sums);
   if (step.problem.held_back)
     for (int d = 0; d < D; ++d)
       for_each(step.problem.grid.owned_faces(d), [&](const Index<D>& face) {
@@ -116,6 +142,7 @@ PetscErrorCode jacobian(SNES snes, ::Vec x, ::Mat matrix, ::Mat, void* context) 
   MatZeroEntries(matrix);
   add_jacobian(step.problem.grid, step.problem.options.kernel, step.unknowns, step.points.linear(),
                step.problem.dt, step.points.water_scale(), matrix);
+  step.contact.add_to(matrix, step.unknowns);
   MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY);
   MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY);
   return 0;
@@ -143,18 +170,6 @@ struct Solver {
   VecHandle x, f;
 };
 
-/// Does the direct solver lose? Not for small problems, nor for long and narrow ones, whose factors
-/// stay as narrow.
-template <int D>
-bool wants_iterations(const ImplicitProblem<D>& problem, const ImplicitUnknowns<D>& unknowns) {
-  if (problem.options.linear_solver != LinearSolver::automatic)
-    return problem.options.linear_solver == LinearSolver::iterative;
-  int longest = 1;
-  for (int a = 0; a < D; ++a) longest = std::max(longest, problem.grid.cells()[a]);
-  return problem.options.kernel == Kernel::composite && unknowns.total > largest_direct &&
-         unknowns.total > largest_direct_layer * longest;
-}
-
 template <int D>
 void make_krylov(Step<D>& step, Solver& solver, KSP ksp) {
   KSPSetType(ksp, KSPFGMRES);
@@ -179,10 +194,10 @@ void make_solver(Step<D>& step, Solver& solver) {
   KSP ksp = nullptr;
   SNESGetKSP(solver.snes, &ksp);
   double relative = 1e-9;
-  if (wants_iterations(problem, step.unknowns)) {
+  if (step.iterative) {
     relative = 1e-7;
-    step.krylov = std::make_unique<ImplicitKrylov<D>>(problem.grid, step.unknowns, solver.x,
-                                                      problem.dt, step.points.water_scale());
+    step.krylov = std::make_unique<ImplicitKrylov<D>>(
+        problem.grid, step.unknowns, step.contact, solver.x, problem.dt, step.points.water_scale());
     MatCreateShell(problem.grid.comm(), owned, owned, PETSC_DETERMINE, PETSC_DETERMINE,
                    step.krylov.get(), solver.matrix.put());
     MatShellSetOperation(solver.matrix, MATOP_MULT, reinterpret_cast<void (*)(void)>(multiply<D>));
@@ -219,8 +234,7 @@ void for_each_force(const Step<D>& step, ::Vec vector, F&& f) {
 /// Why Newton's method stopped, and where: the point that a law failed at, or the face that is
 /// furthest from balance.
 template <int D>
-std::string describe_failure(const Step<D>& step, const Solver& solver,
-                             SNESConvergedReason reason) {
+std::string describe_failure(Step<D>& step, const Solver& solver, SNESConvergedReason reason) {
   const MPI_Comm comm = step.problem.grid.comm();
   PetscInt iterations = 0;
   SNESGetIterationNumber(solver.snes, &iterations);
@@ -228,6 +242,12 @@ std::string describe_failure(const Step<D>& step, const Solver& solver,
                                  SNESConvergedReasons[reason], iterations);
   if (const std::string point = first_text(comm, step.failure); !point.empty())
     return text + "; in one of its trials " + point;
+  std::vector<double> bodies;
+  residual<D>(nullptr, solver.x, solver.f, &step);
+  load_bodies(step.problem.grid, step.unknowns, solver.f, bodies);
+  PetscReal norm = 0.0;
+  VecNorm(solver.f, NORM_2, &norm);
+  text += step.contact.unheld(bodies, norm);
   double largest = 0.0;
   Vec<D> place;
   for_each_force(step, solver.f, [&](int d, const Index<D>& face, double value) {
@@ -243,6 +263,70 @@ std::string describe_failure(const Step<D>& step, const Solver& solver,
                                       : std::string());
 }
 
+/// Size of forces on all unknowns [N]; solver.f is overwritten.
+template <int D, class F>
+double size_of(Step<D>& step, const Solver& solver, F&& add) {
+  step.sums.clear();
+  add(step.sums);
+  step.sums.store(step.problem.sides, step.halo, step.unknowns, solver.f);
+  PetscReal norm = 0.0;
+  VecNorm(solver.f, NORM_2, &norm);
+  return norm;
+}
+template <int D>
+double size_of_contacts(Step<D>& step, const Solver& solver) {
+  return size_of(step, solver, [&](ImplicitFields<D>& sums) { step.contact.add_residual(sums); });
+}
+
+/// Is it worth another pass of the contacts?
+template <int D>
+bool begin_another_pass(Step<D>& step, const Solver& solver) {
+  if (!step.contact.any() || !step.contact.misses()) return false;
+  const double all = size_of_contacts(step, solver);
+  const double change =
+      size_of(step, solver, [&](ImplicitFields<D>& sums) { step.contact.add_change(sums); });
+  if (change <= smallest_change * all) return false;
+  step.contact.begin_pass();
+  return true;
+}
+
+/// Newton's method may end between contacts that stick and slip, where no way along its direction
+/// is better. That is good enough where it leaves less than another pass would be worth.
+template <int D>
+bool ends_close(Step<D>& step, const Solver& solver, SNESConvergedReason reason) {
+  if (reason >= 0) return true;
+  if (!step.contact.any() ||
+      (reason != SNES_DIVERGED_LINE_SEARCH && reason != SNES_DIVERGED_MAX_IT))
+    return false;
+  PetscReal left = 0.0;
+  SNESGetFunctionNorm(solver.snes, &left);
+  return step.evaluate(solver.x, false) && left <= smallest_change * size_of_contacts(step, solver);
+}
+
+/// Newton's method from where the last pass ended. Later passes need not go below what the first
+/// one did.
+template <int D>
+SNESConvergedReason solve_once(const Step<D>& step, const Solver& solver,
+                               ImplicitOutcome& outcome) {
+  const bool first = outcome.iterations == 0;
+  check(SNESSolve(solver.snes, nullptr, solver.x), "solve an implicit step");
+  SNESConvergedReason reason = SNES_CONVERGED_ITERATING;
+  SNESGetConvergedReason(solver.snes, &reason);
+  PetscInt iterations = 0, linear_iterations = 0;
+  SNESGetIterationNumber(solver.snes, &iterations);
+  SNESGetLinearSolveIterations(solver.snes, &linear_iterations);
+  outcome.iterations += static_cast<int>(iterations);
+  outcome.linear_iterations += static_cast<int>(linear_iterations);
+  if (first && step.contact.any()) {
+    PetscReal absolute = 0.0, norm = 0.0;
+    SNESGetTolerances(solver.snes, &absolute, nullptr, nullptr, nullptr, nullptr);
+    SNESGetFunctionNorm(solver.snes, &norm);
+    SNESSetTolerances(solver.snes, std::max(absolute, norm), pass_tolerance, PETSC_DEFAULT,
+                      PETSC_DEFAULT, PETSC_DEFAULT);
+  }
+  return reason;
+}
+
 }  // namespace
 
 template <int D>
@@ -252,22 +336,20 @@ ImplicitOutcome solve_implicit_step(const ImplicitProblem<D>& problem) {
   make_solver(step, solver);
   VecSet(solver.x, 0.0);
   ImplicitOutcome outcome;
-  check(SNESSolve(solver.snes, nullptr, solver.x), "solve an implicit step");
   SNESConvergedReason reason = SNES_CONVERGED_ITERATING;
-  SNESGetConvergedReason(solver.snes, &reason);
-  PetscInt iterations = 0, linear_iterations = 0;
-  SNESGetIterationNumber(solver.snes, &iterations);
-  SNESGetLinearSolveIterations(solver.snes, &linear_iterations);
-  outcome.iterations = static_cast<int>(iterations);
-  outcome.linear_iterations = static_cast<int>(linear_iterations);
-  if (reason < 0 || !step.evaluate(solver.x, false)) {
-    outcome.problem = describe_failure(step, solver, reason);
-    return outcome;
+  for (int pass = 0; pass < most_passes; ++pass) {
+    reason = solve_once(step, solver, outcome);
+    if (!ends_close(step, solver, reason) || !step.evaluate(solver.x, false)) {
+      outcome.problem = describe_failure(step, solver, reason);
+      return outcome;
+    }
+    if (!begin_another_pass(step, solver)) break;
   }
   outcome.converged = true;
   outcome.accepted = !problem.accepts || problem.accepts(step.state);
   if (!outcome.accepted) return outcome;
   step.points.finish(step.state, outcome);
+  step.contact.finish();
   outcome.largest_step = max_over_ranks(problem.grid, outcome.largest_step);
   outcome.largest_way = max_over_ranks(problem.grid, outcome.largest_way);
   outcome.largest_change = max_over_ranks(problem.grid, outcome.largest_change);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "grid/solid.hpp"
 #include "materials/soil_model.hpp"
 #include "soil/implicit_unknowns.hpp"
 #include "soil/transfer.hpp"
@@ -26,6 +27,9 @@ struct ImplicitProblem {
   std::function<bool(const ImplicitFields<D>&)> accepts;
   /// Forces on the grains that are held back yet, on owned faces [N]; null: none.
   const FaceVector<D>* held_back = nullptr;
+  /// Where they are at the start, with the velocity of given motion; null: none. Free ones get that
+  /// of the step, and all of them the soil's force on them, after `solve`.
+  std::vector<Solid>* solids = nullptr;
 };
 
 struct ImplicitOutcome {

@@ -1,5 +1,7 @@
 #include "soil/implicit_unknowns.hpp"
 
+#include <algorithm>
+
 #include "soil/point_stencil.hpp"
 
 namespace mudlark {
@@ -121,6 +123,7 @@ void ImplicitFields<D>::clear() {
   grains.fill(0.0);
   water.fill(0.0);
   pressure.fill(0.0);
+  std::fill(bodies.begin(), bodies.end(), 0.0);
 }
 
 template <int D>
@@ -144,6 +147,7 @@ void ImplicitFields<D>::load(const ImplicitSides<D>& sides, Halo<D>& halo,
     pressure.data()[at] = value(unknowns.pressure[at]);
   });
   VecRestoreArrayRead(values, &x);
+  load_bodies(grid, unknowns, values, bodies);
   halo.exchange(grains);
   halo.exchange(water);
   halo.exchange(pressure);
@@ -177,12 +181,41 @@ void ImplicitFields<D>::store(const ImplicitSides<D>& sides, Halo<D>& halo,
     put(unknowns.pressure[at], pressure.data()[at]);
   });
   VecRestoreArray(values, &x);
+  store_bodies(grid, unknowns, bodies, values);
+}
+
+template <int D>
+void load_bodies(const Grid<D>& grid, const ImplicitUnknowns<D>& unknowns, ::Vec values,
+                 std::vector<double>& bodies) {
+  bodies.resize(static_cast<std::size_t>(unknowns.body_freedoms));
+  if (bodies.empty()) return;
+  if (grid.rank() == 0) {
+    const PetscScalar* x = nullptr;
+    VecGetArrayRead(values, &x);
+    std::copy_n(x + unknowns.first_body, bodies.size(), bodies.begin());
+    VecRestoreArrayRead(values, &x);
+  }
+  MPI_Bcast(bodies.data(), unknowns.body_freedoms, MPI_DOUBLE, 0, grid.comm());
+}
+
+template <int D>
+void store_bodies(const Grid<D>& grid, const ImplicitUnknowns<D>& unknowns,
+                  const std::vector<double>& bodies, ::Vec values) {
+  if (unknowns.body_freedoms == 0) return;
+  std::vector<double> all(bodies.size());
+  MPI_Reduce(bodies.data(), all.data(), unknowns.body_freedoms, MPI_DOUBLE, MPI_SUM, 0,
+             grid.comm());
+  if (grid.rank() != 0) return;
+  PetscScalar* x = nullptr;
+  VecGetArray(values, &x);
+  std::copy(all.begin(), all.end(), x + unknowns.first_body);
+  VecRestoreArray(values, &x);
 }
 
 template <int D>
 ImplicitUnknowns<D> number_unknowns(const SoilSides<D>& sides, Kernel kernel,
                                     const std::vector<SoilParticles<D>>& bodies,
-                                    const std::vector<bool>& wet) {
+                                    const std::vector<bool>& wet, int body_freedoms) {
   const Grid<D>& grid = sides.grid();
   Halo<D> halo(grid);
   ImplicitFields<D> sums(grid);
@@ -203,6 +236,10 @@ ImplicitUnknowns<D> number_unknowns(const SoilSides<D>& sides, Kernel kernel,
     }
   fold_cells(sides, grid.local(), sums.pressure);
   number_owned(sums.pressure, grid.owned(), smallest_cell_share * grid.cell_volume(), next);
+  unknowns.first_body = next;
+  MPI_Bcast(&unknowns.first_body, 1, MPIU_INT, 0, grid.comm());
+  unknowns.body_freedoms = body_freedoms;
+  if (grid.rank() == 0) next += body_freedoms;
   unknowns.owned = next;
   MPI_Exscan(&next, &unknowns.first, 1, MPIU_INT, MPI_SUM, grid.comm());
   if (grid.rank() == 0) unknowns.first = 0;
@@ -224,11 +261,17 @@ ImplicitUnknowns<D> number_unknowns(const SoilSides<D>& sides, Kernel kernel,
 
 template struct ImplicitFields<2>;
 template struct ImplicitFields<3>;
+template void load_bodies(const Grid<2>&, const ImplicitUnknowns<2>&, ::Vec, std::vector<double>&);
+template void load_bodies(const Grid<3>&, const ImplicitUnknowns<3>&, ::Vec, std::vector<double>&);
+template void store_bodies(const Grid<2>&, const ImplicitUnknowns<2>&, const std::vector<double>&,
+                           ::Vec);
+template void store_bodies(const Grid<3>&, const ImplicitUnknowns<3>&, const std::vector<double>&,
+                           ::Vec);
 template ImplicitUnknowns<2> number_unknowns(const SoilSides<2>&, Kernel,
                                              const std::vector<SoilParticles<2>>&,
-                                             const std::vector<bool>&);
+                                             const std::vector<bool>&, int);
 template ImplicitUnknowns<3> number_unknowns(const SoilSides<3>&, Kernel,
                                              const std::vector<SoilParticles<3>>&,
-                                             const std::vector<bool>&);
+                                             const std::vector<bool>&, int);
 
 }  // namespace mudlark

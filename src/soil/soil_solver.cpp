@@ -80,9 +80,6 @@ SoilSolver<D>::SoilSolver(const Grid<D>& grid, const SoilOptions& options)
   }
   if (options.formulation != Formulation::u_w && two_phase()) projection_.emplace(sides_, options_);
   if (options.solids.empty()) return;
-  if (is_implicit())
-    throw InputError(
-        "[[solid]] needs soil_solver.method = \"explicit\": implicit steps know no contact.");
   if (projection_)
     throw InputError(
         "[[solid]] needs formulation = \"u-w\": the pore pressure of u-w-p and u-p does not know "

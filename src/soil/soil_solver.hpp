@@ -206,7 +206,10 @@ class SoilSolver {
   double squared_force_on_free_faces();
   void settle_sums();
   void advance_implicitly(double dt, int cuts);
+  void advance_in_halves(double dt, int cuts);
+  bool solids_leap(double dt) const;
   void find_equilibrium_implicitly();
+  void start_bodies_and_sides();
   double drainage_time() const;
   void start_from_rest();
   void begin_implicit_step(double dt);

@@ -43,8 +43,10 @@ void SoilSolver<D>::begin_stage(std::size_t stage) {
   const Totals before = totals();
   const bool was_implicit = is_implicit();
   apply_stage(stage);
-  if (was_implicit && !is_implicit())
+  if (was_implicit && !is_implicit()) {
     for (auto& points : points_) stop(points);
+    for (Solid& solid : solids_) solid.stop();
+  }
   next_step_ = 0.0;  // what the last stage's steps recommended is past
   const SoilStage& own = options_.stages.at(stage);
   if (own.remove)

@@ -53,6 +53,10 @@ TEST_F(Ranks, GiveTheSameThrownBlockOfSoilIn3D) { expect_the_same_on_ranks("soil
 
 TEST_F(Ranks, GiveTheSameLumpWhosePointsAreSplit) { expect_the_same_on_ranks("drawn"); }
 
+TEST_F(Ranks, GiveTheSameFootingAndPileInImplicitSteps) {
+  expect_the_same_on_ranks("solid_implicit");
+}
+
 TEST_F(Ranks, GiveTheSameStages) { expect_the_same_on_ranks("stages"); }
 
 TEST_F(Ranks, GiveTheSameFlowAgainstAPorousBlockIn3D) { expect_the_same_on_ranks("flow_3d"); }

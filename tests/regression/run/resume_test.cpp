@@ -92,6 +92,9 @@ TEST_F(Resume, AfterKillsGivesTheSameBitsOfABodyThatIsFreeInWater) {
 TEST_F(Resume, AfterKillsGivesTheSameBitsOfSoilAlone) { kill_and_resume("soil_3d", 1, 3, 4); }
 TEST_F(Resume, AfterKillsGivesTheSameBitsOfSplitPoints) { kill_and_resume("drawn", 2, 2, 6); }
 /// On one rank: the direct solver of implicit steps sums up what other ranks send as it arrives.
+TEST_F(Resume, AfterKillsGivesTheSameBitsOfBodiesInImplicitSteps) {
+  kill_and_resume("solid_implicit", 1, 2, 12);
+}
 TEST_F(Resume, AfterKillsGivesTheSameBitsOfStages) { kill_and_resume("stages", 1, 3, 7); }
 
 /// In the middle of every stage, and where one ends and the next has not begun.
