@@ -148,7 +148,9 @@ SteadyWave stream_function_wave(double height, double period, double depth, doub
     Eigen::VectorXd guess = x;
     if (last_step > 0.0) guess += (next - share) / last_step * (x - before);
     problem.height_by_depth = next * height / depth;
-    if (!problem.solve(guess)) {
+    // The highest waves are a third longer than sines; what is far longer is no wave of this
+    // period.
+    if (!problem.solve(guess) || guess[0] < 0.5 * linear) {
       step *= 0.5;
       if (step > 2e-3) continue;
       throw InputError(fmt::format(
