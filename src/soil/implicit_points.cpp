@@ -69,6 +69,7 @@ void ImplicitPoints<D>::interpolate(std::size_t b, const ImplicitFields<D>& stat
   const auto& points = problem_->bodies[b];
   Body& body = bodies_[b];
   const Vec<D> per_spacing = inverse(grid.spacing());
+  const bool wet = problem_->constants[b].water_density > 0.0;  // dry soil on wet feels none of it
   body.gradient.assign(points.size() * G, 0.0);
   body.pressure.resize(points.size());
   for (std::size_t p = 0; p < points.size(); ++p) {
@@ -81,8 +82,8 @@ void ImplicitPoints<D>::interpolate(std::size_t b, const ImplicitFields<D>& stat
             for (int j = 0; j < D; ++j) row[j] += u[at] * slope[j];
           });
     });
-    body.pressure[p] =
-        points.pore_pressure[p] + sample(grid, splines, per_spacing, &state.pressure).value;
+    body.pressure[p] = points.pore_pressure[p];
+    if (wet) body.pressure[p] += sample(grid, splines, per_spacing, &state.pressure).value;
   }
 }
 

@@ -112,6 +112,43 @@ TEST(Implicit, ReachesGeostaticStressByItself) {
   EXPECT_LT(soil.totals().kinetic_energy, 1e-12);
 }
 
+// A dry fill on wet ground: it feels nothing of the pore water next to it, and the ground settles
+// under the fill and its own weight under water.
+TEST(Implicit, CarriesADryFillOnWetGround) {
+  const Grid<2> grid = soil_runs::make_grid<2>({2, 16, 1}, 0.25, "ssno", 9.81);
+  SoilOptions soil = soil_runs::make_soil(2, {-1, -1, -1}, {9, 9, 2.0}, true);
+  soil.bodies.push_back(soil_runs::make_soil(2, {-1, -1, 2.0}, {9, 9, 3.0}, false).bodies[0]);
+  soil.bodies[1].name = "fill";
+  for (SoilBody& body : soil.bodies) {
+    body.strain = StrainMeasure::small;
+    body.law = LinearElasticOptions{2e7, 0.3};
+  }
+  soil.method = TimeMethod::implicit_steps;
+  soil.step_tolerance = 1.0;
+  SoilSolver<2> solver(grid, soil);
+  solver.initialise();
+  for (int step = 0; step < 6; ++step) {
+    solver.begin_step(step * 1e5, 1e5, nullptr);
+    solver.advance(1e5);
+  }
+  EXPECT_EQ(solver.implicit_effort().repeated, 0);
+  const auto& ground = solver.points(0);
+  double settlement = 0.0, height = 0.0;  // of the uppermost points
+  for (std::size_t p = 0; p < ground.size(); ++p) {
+    settlement = std::max(settlement, ground.start[1][p] - ground.position[1][p]);
+    height = std::max(height, ground.start[1][p]);
+  }
+  const SoilBody& body = soil.bodies[0];
+  const double dry = (1 - body.porosity) * body.grain_density * 9.81;
+  const double under_water = (1 - body.porosity) * (body.grain_density - 1000.0) * 9.81;
+  const double exact = (dry * 1.0 * height + under_water * (2.0 * height - 0.5 * height * height)) /
+                       soil_runs::constrained_modulus(2e7, 0.3);
+  std::printf("fill: settlement %.5g m, exact %.5g\n", settlement, exact);
+  EXPECT_NEAR(settlement, exact, 1e-3 * exact);
+  const auto& fill = solver.points(1);
+  for (std::size_t p = 0; p < fill.size(); ++p) EXPECT_EQ(fill.pore_pressure[p], 0.0);
+}
+
 // A dry block of Mohr-Coulomb soil without dilatancy is pressed between smooth walls until it
 // yields: plane strain, sigma_1 = sigma_3 tan^2(45 + phi/2) + 2 c tan(45 + phi/2).
 TEST(Implicit, PressesMohrCoulombSoilToItsStrength) {
