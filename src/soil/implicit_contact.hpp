@@ -13,9 +13,8 @@ namespace mudlark {
 /// surface. By augmented Lagrangians (Simo & Laursen 1992): the force is that of the last step, or
 /// of the last pass, plus a stiffness times what the edge still goes too far, bounded; passes are
 /// repeated until nothing is left that matters. Friction is that of the pressure at the pass'
-/// start. Pore water does not pass the surface, by the same
-/// means. The freedoms of free bodies are unknowns, their equations the balance of forces and
-/// moments on them.
+/// start. Pore water does not pass the surface, by the same means. The freedoms of free bodies are
+/// unknowns, their equations the balance of forces and moments on them.
 template <int D>
 class ImplicitContact {
  public:

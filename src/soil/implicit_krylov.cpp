@@ -128,8 +128,10 @@ void ImplicitKrylov<D>::multiply(::Vec x, ::Vec y) {
   water_.take_from_all(x, w_);
   pressure_.take_from_all(x, p_);
   find_flow();
-  seals_.fill(0.0);
-  contact_->apply_seals(ways_, seals_);
+  if (contact_->any()) {
+    seals_.fill(0.0);
+    contact_->apply_seals(ways_, seals_);
+  }
   grains_.to_places(u_, pointers(ways_));
   const std::array<double*, 1> pressure{cell_pressure_.data()};
   pressure_.to_places(p_, pressure);
@@ -146,7 +148,7 @@ void ImplicitKrylov<D>::multiply(::Vec x, ::Vec y) {
   pressure_.to_unknowns(storage, f_p_);
   VecScale(f_p_, water_scale_);
   difference_push();
-  for (int d = 0; d < D; ++d)
+  for (int d = 0; d < D && contact_->any(); ++d)
     for (std::size_t at = 0; at < forces_[d].size(); ++at)
       forces_[d].data()[at] -= seals_[d].data()[at];
   water_.to_unknowns(pointers(std::as_const(forces_)), f_w_);

@@ -206,5 +206,31 @@ TEST(ImplicitSolid, DoesTheSameInSpaceAndWithBothSolvers) {
   }
 }
 
+/// Way of a footing in two steps that stands on soil without stress, or that has found its rest
+/// before time zero.
+double way_under_weight(bool at_rest) {
+  const Grid<2> grid = soil_runs::make_grid<2>({12, 10, 1}, 0.05, "ssno", 9.81, MPI_COMM_WORLD);
+  SoilOptions options = make_soil(2, {0, -1, 0}, {1, 1, 0.3}, false, LinearSolver::direct);
+  if (at_rest) options.start_in_equilibrium = EquilibriumStart{};
+  SolidOptions block = make_solid({BoxShape{{0.2, -infinity, 0.3}, {0.4, infinity, 0.4}}});
+  FreeSolid motion;
+  motion.density = 2000.0;
+  block.motion = motion;
+  options.solids.push_back(block);
+  SoilSolver<2> soil(grid, options);
+  soil.initialise();
+  soil.find_equilibrium();
+  run(soil, 2, 1.0);
+  const double weight = 2000.0 * 9.81 * 0.02;
+  EXPECT_NEAR(soil.solids()[0].force()[2], weight, 1e-3 * weight);
+  return soil.solids()[0].displacement().norm();
+}
+
+TEST(ImplicitSolid, StartsInEquilibriumUnderItsWeight) {
+  const double sinks = way_under_weight(false);
+  EXPECT_GT(sinks, 1e-4);
+  EXPECT_LT(way_under_weight(true), 2e-3 * sinks);
+}
+
 }  // namespace
 }  // namespace mudlark
