@@ -3,6 +3,8 @@ add_library(mudlark_compile_options INTERFACE)
 target_compile_options(mudlark_compile_options INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wshadow)
 # GCC 12 warns about its own AVX-512 intrinsics when Eigen inlines them (GCC bug 105593).
 target_compile_options(mudlark_compile_options INTERFACE -Wno-maybe-uninitialized)
+# Short vectors wider than the processor's registers are passed in memory; all callers are built alike.
+target_compile_options(mudlark_compile_options INTERFACE -Wno-psabi)
 if(MUDLARK_WARNINGS_AS_ERRORS)
   target_compile_options(mudlark_compile_options INTERFACE -Werror)
 endif()

@@ -65,10 +65,9 @@ auto ImplicitContact<D>::list_freedoms(const ImplicitProblem<D>& problem) -> std
   for (std::size_t s = 0; s < problem.solids->size(); ++s) {
     const Solid& solid = (*problem.solids)[s];
     if (!solid.free()) continue;
-    Vector6 free;
-    free << solid.free_axes(), solid.free_turns();
     for (int axis = 0; axis < 6; ++axis)
-      if (free[axis] != 0.0) all.push_back({s, axis});
+      if ((axis < 3 ? solid.free_axes()[axis] : solid.free_turns()[axis - 3]) != 0.0)
+        all.push_back({s, axis});
   }
   return all;
 }
