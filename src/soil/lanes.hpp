@@ -14,9 +14,16 @@ struct LanesOf {
 template <int N>
 using Lanes = typename LanesOf<N>::type;
 
-/// Points that a transfer handles at a time: about as many as a cell holds.
+/// Doubles in the processor's widest register. Wider vectors would go through memory.
+#ifdef __AVX512F__
+inline constexpr int register_lanes = 8;
+#else
+inline constexpr int register_lanes = 4;
+#endif
+
+/// Points that a transfer handles at a time: no more than a register or a cell holds.
 template <int D>
-inline constexpr int point_lanes = D == 2 ? 4 : 8;
+inline constexpr int point_lanes = D == 2 ? 4 : register_lanes;
 
 template <int N>
 inline Lanes<N> load(const double* from) {

@@ -10,7 +10,7 @@
 namespace mudlark {
 
 /// Points whose tensors are worked on together.
-inline constexpr std::size_t tensor_lanes = 8;
+inline constexpr std::size_t tensor_lanes = register_lanes;
 using TensorValue = Lanes<static_cast<int>(tensor_lanes)>;
 
 struct TensorLanes {
