@@ -14,8 +14,8 @@ struct GatherSpline {
   AxisSpline<Value, static_cast<int>(N)> spline;
   std::array<Value, N> moment;
 
-  GatherSpline(const AxisSpline<Value, static_cast<int>(N)>& on, const Value& place, double first)
-      : spline(on) {
+  void set(const AxisSpline<Value, static_cast<int>(N)>& on, const Value& place, double first) {
+    spline = on;
     for (std::size_t k = 0; k < N; ++k)
       moment[k] = spline.weight[k] * (static_cast<double>(k) + first - place);
   }
@@ -85,16 +85,21 @@ class CellGather {
         stride_{1, D == 3 ? grid.stride(1) : 0, grid.stride(D - 1)} {}
 
   void take(const CellBatches<D>& batches, const CellBatch<D>& batch) {
-    std::array<Value, D> place;
-    for (int a = 0; a < D; ++a) place[static_cast<std::size_t>(a)] = batches.place(batch, a);
+    const Vec<D>& per_spacing = batches.per_spacing();
+    Splines splines;
+    for (int a = 0; a < D; ++a) {
+      const auto u = static_cast<std::size_t>(a);
+      const Value r = batches.place(batch, a);
+      splines.face[u].set(face_spline<K::along>(r, per_spacing[a]), r, first_face);
+      splines.centre[u].set(centre_spline(r, per_spacing[a]), r, first_centre);
+    }
     Index<D> corner = batch.cell;
     for (int a = 0; a < D; ++a) --corner[a];
     const std::ptrdiff_t first = grid_.offset(corner);
     Value divergence{}, speed2{};
-    take_component<0>(batch, batches.per_spacing(), place, first, divergence, speed2);
-    take_component<1>(batch, batches.per_spacing(), place, first, divergence, speed2);
-    if constexpr (D == 3)
-      take_component<2>(batch, batches.per_spacing(), place, first, divergence, speed2);
+    take_component<0>(batch, per_spacing, splines, first, divergence, speed2);
+    take_component<1>(batch, per_spacing, splines, first, divergence, speed2);
+    if constexpr (D == 3) take_component<2>(batch, per_spacing, splines, first, divergence, speed2);
     if constexpr (wet) batch.set(divergence, motion_.flux_divergence.data(), range_.first);
     for (int i = batch.live; i < CellBatch<D>::lanes; ++i)
       speed2[static_cast<std::size_t>(i)] = 0.0;
@@ -110,23 +115,29 @@ class CellGather {
   }
 
  private:
-  template <int Component, int Axis>
-  auto spline(const Vec<D>& per_spacing, const std::array<Value, D>& place) const {
-    const Value& r = place[static_cast<std::size_t>(Axis)];
-    if constexpr (Component == Axis)
-      return GatherSpline<Value, 4>(face_spline<K::along>(r, per_spacing[Axis]), r, first_face);
-    else
-      return GatherSpline<Value, 3>(centre_spline(r, per_spacing[Axis]), r, first_centre);
-  }
+  /// Splines of a part, which the components share.
+  struct Splines {
+    using Face = GatherSpline<Value, 4>;
+    using Centre = GatherSpline<Value, 3>;
+    std::array<Face, D> face;
+    std::array<Centre, D> centre;
+
+    template <int Component, int Axis>
+    const auto& on() const {
+      if constexpr (Component == Axis)
+        return face[static_cast<std::size_t>(Axis)];
+      else
+        return centre[static_cast<std::size_t>(Axis)];
+    }
+  };
 
   template <int Component>
-  Sums<D, affine, wet> sum_nodes(const Vec<D>& per_spacing, const std::array<Value, D>& place,
-                                 const NodeMotion* corner) const {
+  Sums<D, affine, wet> sum_nodes(const Splines& splines, const NodeMotion* corner) const {
     using Part = Sums<D, affine, wet>;
     constexpr int d = Component;
     constexpr std::size_t nx = d == 0 ? 4 : 3, ny = d == 1 ? 4 : 3, nz = d == D - 1 ? 4 : 3;
-    const auto x = spline<d, 0>(per_spacing, place);
-    const auto z = spline<d, D - 1>(per_spacing, place);
+    const auto& x = splines.template on<d, 0>();
+    const auto& z = splines.template on<d, D - 1>();
     Part all;
     for (std::size_t k = 0; k < nz; ++k) {
       const NodeMotion* plane = corner + static_cast<std::ptrdiff_t>(k) * stride_[2];
@@ -134,7 +145,7 @@ class CellGather {
       if constexpr (D == 2) {
         for (std::size_t i = 0; i < nx; ++i) sum.template add_node<d>(plane[i], x, i);
       } else {
-        const auto y = spline<d, 1>(per_spacing, place);
+        const auto& y = splines.template on<d, 1>();
         for (std::size_t j = 0; j < ny; ++j) {
           const NodeMotion* row = plane + static_cast<std::ptrdiff_t>(j) * stride_[1];
           Part line;
@@ -148,12 +159,10 @@ class CellGather {
   }
 
   template <int Component>
-  void take_component(const CellBatch<D>& batch, const Vec<D>& per_spacing,
-                      const std::array<Value, D>& place, std::ptrdiff_t first, Value& divergence,
-                      Value& speed2) {
+  void take_component(const CellBatch<D>& batch, const Vec<D>& per_spacing, const Splines& splines,
+                      std::ptrdiff_t first, Value& divergence, Value& speed2) {
     constexpr int d = Component;
-    const auto sum =
-        sum_nodes<d>(per_spacing, place, nodes_[static_cast<std::size_t>(d)].data() + first);
+    const auto sum = sum_nodes<d>(splines, nodes_[static_cast<std::size_t>(d)].data() + first);
     const double flip = update_.flip_fraction;
     Value v = sum.velocity;
     if constexpr (!affine)
