@@ -106,6 +106,9 @@ ExitCode guarded(const std::function<ExitCode()>& body) {
 ExitCode in_parallel(const std::function<ExitCode()>& body) {
   const bool under_run = std::getenv(exit_code_variable) != nullptr;
   if (under_run) std::signal(SIGUSR1, stop_gently);
+  // A file beyond the limit of a shell or a queue is a write that fails, as on a full disk, and no
+  // reason to die without a word.
+  std::signal(SIGXFSZ, SIG_IGN);
   const SessionFolder folder;
   MPI_Init(nullptr, nullptr);
   // PETSc would catch crashes and Ctrl-C and print pages about them; errors here are exceptions.

@@ -1,10 +1,14 @@
 #include "output/hdf5_file.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <stdexcept>
 #include <utility>
 
@@ -82,6 +86,9 @@ void divert_to_memory(hid_t file) {
   ::dup2(memory, *descriptor);
   ::close(memory);
 }
+
+/// What HDF5 may write beside numbers before a file is closed.
+constexpr hsize_t bookkeeping_bytes = 1u << 20;
 
 /// Messages have at most this many bytes, for MPI counts them with an int.
 constexpr std::size_t message_bytes = std::size_t{1} << 26;
@@ -169,10 +176,11 @@ void Hdf5File::share_problem() {
 
 void Hdf5File::close() {
   if (rank_ == 0) {
-    if (mode_ != Mode::read && problem_.empty())
+    if (mode_ != Mode::read && reserve(0))
       keep(H5Fflush(file_, H5F_SCOPE_LOCAL) >= 0, "write it to the disk");
     if (mode_ != Mode::read && !problem_.empty()) divert_to_memory(file_);
     keep(H5Fclose(std::exchange(file_, -1)) >= 0, "close it");
+    if (mode_ != Mode::read) release();
   }
   share_problem();
 }
@@ -211,6 +219,35 @@ std::vector<std::string> Hdf5File::names_in(const std::string& group) {
   return names;
 }
 
+/// Takes the disk space for so many bytes more; false, and a problem, where there is none. HDF5 is
+/// asked to write only afterwards: a file that it could not flush it cannot close either, and then
+/// it crashes when MPI finalises (HDF5 1.10: "slist already enabled").
+bool Hdf5File::reserve(std::size_t bytes) {
+  int* descriptor = nullptr;
+  hsize_t size = 0;
+  if (!problem_.empty() || file_ < 0 || H5Fget_filesize(file_, &size) < 0 ||
+      H5Fget_vfd_handle(file_, H5P_DEFAULT, reinterpret_cast<void**>(&descriptor)) < 0)
+    return problem_.empty();
+  size += bytes + bookkeeping_bytes;
+  rlimit limit{};
+  if (getrlimit(RLIMIT_FSIZE, &limit) == 0 && size > limit.rlim_cur)
+    problem_ = fmt::format(
+        "{}: cannot grow beyond {:.4g} MB, the limit on the size of files here (ulimit -f)",
+        path_.string(), 1e-6 * static_cast<double>(limit.rlim_cur));
+  else if (::fallocate(*descriptor, FALLOC_FL_KEEP_SIZE, 0, static_cast<off_t>(size)) != 0 &&
+           (errno == ENOSPC || errno == EDQUOT || errno == EFBIG))
+    problem_ =
+        fmt::format("{}: cannot write it to the disk ({})", path_.string(), std::strerror(errno));
+  return problem_.empty();
+}
+
+/// Gives back what was reserved beyond the end of the file; where that fails it stays reserved.
+void Hdf5File::release() const {
+  std::error_code ignored;
+  const auto size = std::filesystem::file_size(path_, ignored);
+  if (!ignored) std::filesystem::resize_file(path_, size, ignored);
+}
+
 template <class T>
 void Hdf5File::write_block(hid_t dataset, const Slab& slab, const T* values) {
   if (dataset < 0 || slab.size() == 0) return;
@@ -237,9 +274,12 @@ void Hdf5File::write(const std::string& dataset, const Slab& slab, const T* valu
       H5Sclose);
   const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_fill_time(properties, H5D_FILL_TIME_NEVER);  // every number is written by one rank
-  const Handle data(
-      H5Dcreate2(file_, dataset.c_str(), type_of<T>(), space, H5P_DEFAULT, properties, H5P_DEFAULT),
-      H5Dclose);
+  const Slab whole{slab.extent, {}, slab.extent};
+  const Handle data(reserve(whole.size() * sizeof(T))
+                        ? H5Dcreate2(file_, dataset.c_str(), type_of<T>(), space, H5P_DEFAULT,
+                                     properties, H5P_DEFAULT)
+                        : -1,
+                    H5Dclose);
   keep(data.fine(), fmt::format("make {}", dataset));
   write_block(data, slab, values);
   std::vector<T> received;

@@ -71,6 +71,8 @@ class Hdf5File {
   template <class T>
   T get_attribute(const std::string& object, const std::string& name);
   void keep(bool fine, const std::string& what);
+  bool reserve(std::size_t bytes);
+  void release() const;
   void share_problem();
 
   std::filesystem::path path_;

@@ -109,7 +109,11 @@ void mark_failed(const std::filesystem::path& folder, const std::string& message
   if (last.is_object())
     for (const auto& [key, value] : last.items())
       if (!json.contains(key)) json[key] = value;
-  write_atomically(folder / "summary.json", dump(json));
+  try {
+    write_atomically(folder / "summary.json", dump(json));
+  } catch (const std::exception&) {  // no room for a second file: over the first, then
+    std::ofstream(folder / "summary.json", std::ios::trunc) << dump(json);
+  }
 }
 
 double peak_memory(MPI_Comm comm) {

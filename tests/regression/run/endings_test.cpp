@@ -1,4 +1,6 @@
 /// How runs end: exit codes, what the summary says, going on with other settings, conservation.
+#include <sys/resource.h>
+
 #include "regression/run/runs.hpp"
 
 namespace mudlark {
@@ -22,6 +24,21 @@ TEST_F(Endings, ADivergedRunReturns2AndGoesOnWithASmallerStep) {
 TEST_F(Endings, ADivergedRunOnTwoRanksReturns2) {
   EXPECT_EQ(run("flow_3d", 2, "out", {"--set", "time.step=0.05"}).code, 2);
   EXPECT_EQ(status_of(results("out")), "\"diverged\"");
+}
+
+TEST_F(Endings, AFileThatCannotGrowFailsTheRunWithAWord) {
+  const pid_t child = start(
+      words("soil_3d", 1, "out",
+            {"--set", "time.end=100", "time.output_every=0.002", "time.checkpoint_every=1000"}));
+  wait_for_state("out");
+  const rlimit small{2'000'000, 2'000'000};
+  ASSERT_EQ(prlimit(child, RLIMIT_FSIZE, &small, nullptr), 0);
+  const Result failed = wait_patiently(child);
+  EXPECT_EQ(failed.code, 3) << failed.output;
+  EXPECT_EQ(status_of(results("out")), "\"failed\"");
+  EXPECT_NE(failed.output.find("points.h5: cannot grow beyond 2 MB"), std::string::npos)
+      << failed.output;
+  EXPECT_EQ(run("soil_3d", 1, "out", {"--resume", "--until", "0.02"}).code, 0);
 }
 
 TEST_F(Endings, AFinishedRunGoesOnToALaterEnd) {
