@@ -55,8 +55,12 @@ void print_estimate(const CaseEstimate& estimate) {
              estimate.cpu_seconds ? step_text(estimate.soil_step) : "any (implicit)");
   fmt::print("#   memory             {:.1f} MiB\n", estimate.memory / mebibyte);
   fmt::print("#   time on one core   {}\n",
-             estimate.cpu_seconds ? "about " + duration_text(*estimate.cpu_seconds)
-                                  : "open: implicit steps are as long as accuracy allows");
+             estimate.cpu_seconds
+                 ? "about " + duration_text(*estimate.cpu_seconds) +
+                       (estimate.flow_step > 0.0 ? " with the steps of the start; water that gets "
+                                                   "faster takes more"
+                                                 : "")
+                 : "open: implicit steps are as long as accuracy allows");
 }
 
 }  // namespace
