@@ -58,6 +58,7 @@ class SoilInWater {
   /// Room within the kernel's reach of a cell that bodies leave [-].
   double reach_at(const Index<D>& cell) const { return reach_[cell]; }
   const CellField<D>& fraction() const { return fraction_; }  ///< grains per cell volume [-]
+  double resistance_in(const Index<D>& cell) const { return resistance_[cell]; }  ///< [Pa s/m2]
   /// Means of the two cells beside a face: grains [-], and mu/kappa that fades with them [Pa s/m2].
   double fraction_at(int axis, const Index<D>& face) const {
     return 0.5 * (fraction_[face.shifted(axis, -1)] + fraction_[face]);

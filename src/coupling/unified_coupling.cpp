@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "flow/flow_checks.hpp"
+
 namespace mudlark {
 namespace {
 
@@ -49,6 +51,27 @@ void UnifiedCoupling<D>::map_soil_to_grid(SoilSolver<D>& soil, const PorousMediu
       const double open = medium.space.aperture[a][face];  // only there water resists
       grains_.resistance[a][face] = open > 0.0 ? room_.resistance_at(a, face) / open : 0.0;
     });
+  resist_at_sides(medium.space);
+}
+
+/// On closed sides, which may let water through, there is the ground of the cells before them.
+template <int D>
+void UnifiedCoupling<D>::resist_at_sides(const Space<D>& space) {
+  for (int axis = 0; axis < D; ++axis)
+    for (int side = 0; side < 2; ++side) {
+      if (!grid_->touches(axis, side) || grid_->wall(axis, side) == Wall::open) continue;
+      for_each(wall_faces(*grid_, axis, side), [&](const Index<D>& face) {
+        const Index<D> before = face.shifted(axis, side == 0 ? 1 : -1);
+        double& here = grains_.resistance[axis][face];
+        if (drag_.active()) {
+          if (grid_->cells()[axis] > 1) here = grains_.resistance[axis][before];
+          return;
+        }
+        const double open = space.aperture[axis][face];
+        const Index<D> cell = side == 0 ? face : before;
+        here = open > 0.0 ? room_.resistance_in(cell) / open : 0.0;
+      });
+    }
 }
 
 template <int D>
@@ -149,6 +172,7 @@ void UnifiedCoupling<D>::load_grains(const FlowSolver<D>& flow, const Space<D>& 
   halo_.exchange(fields);
   if (drag_.active()) {
     drag_.find(room_, space, flow.velocity(), grains_);
+    resist_at_sides(space);
     std::array<double*, std::size_t{D}> resistance{};
     for (int a = 0; a < D; ++a)
       resistance[static_cast<std::size_t>(a)] = grains_.resistance[a].data();

@@ -67,6 +67,7 @@ class UnifiedCoupling {
   Balance step_towards_rest(const Push& push, const FlowSolver<D>& flow, const Space<D>& space,
                             SoilSolver<D>& soil, double dt);
   void find_room(const PorousMedium<D>& fixed, const Space<D>& space);
+  void resist_at_sides(const Space<D>& space);
   void note_pore_pressure(const FlowSolver<D>& flow, SoilSolver<D>& soil);
   void extend_into_solids(const FlowSolver<D>& flow);
   void push_beside_solids(const Space<D>& space);

@@ -49,7 +49,7 @@ class FlowSides {
   void push(const FaceVector<D>& mobility, const CellField<D>& unknown,
             FaceVector<D>& velocity) const;
   /// Share of water in what comes in through each face of a wall [-].
-  const FaceVector<D>& inflow() const { return inflow_; }
+  FaceVector<D>& inflow() { return inflow_; }
 
  private:
   struct Side {

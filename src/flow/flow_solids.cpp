@@ -9,6 +9,7 @@ namespace mudlark {
 
 template <int D>
 void FlowSolver<D>::restore(PorousMedium<D>& medium) {
+  if (ground_sides_) find_sides(time_, &medium);
   if (solids_.empty()) return;
   find_capacity(medium);
   find_unknowns();

@@ -39,6 +39,7 @@ FlowSolver<D>::FlowSolver(const Grid<D>& grid, const FlowOptions& options)
       waves_(grid, options.waves),
       sides_(grid, options.sides, options.density),
       sources_(grid, options.wave_sources),
+      rain_(grid, options.rains),
       solids_(grid, options.solids, options.density),
       water_(grid, "water fraction", "1"),
       porosity_(grid, "porosity", "1", 1.0),
@@ -59,6 +60,8 @@ FlowSolver<D>::FlowSolver(const Grid<D>& grid, const FlowOptions& options)
       body_friction_(grid, "body friction", "Pa s/m2") {
   if (options.gas) gas_.emplace(grid, options);
   if (options.turbulence.model != TurbulenceModel::none) turbulence_.emplace(grid, options);
+  if (!options.ground_sides.empty())
+    ground_sides_.emplace(grid, options.ground_sides, options.density);
   for (const PorousGround& ground : options.porous)
     if (ground.filling.residual > 0.0) keep_residual_water();
 }
@@ -144,10 +147,11 @@ void FlowSolver<D>::initialise(const PorousMedium<D>& medium) {
   double* theta = porosity_.data();
   for_each_offset(*grid_, grid_->local(),
                   [&](std::ptrdiff_t at) { theta[at] = volume[at] * given[at]; });
+  if (ground_sides_) ghosts_.update(porosity_);  // what is behind sides says how they let through
   find_capacity(medium);
   fill_with_bodies(medium);
   update_derived(&medium);
-  find_sides(0.0);
+  find_sides(0.0, &medium);
   initial_volume_ = ledger().present;
   outflow_ = time_ = 0.0;
   step_ = 0;
@@ -171,7 +175,8 @@ void FlowSolver<D>::find_unknowns() {
     solids_.walls().extend_saturation(porosity_, seen_);
     seen = &seen_;
   }
-  projection_.find_surface(free_water(), free_room(), capacity_, *seen, interface_);
+  projection_.find_surface(free_water(), free_room(), capacity_, *seen, interface_,
+                           ground_sides_ ? &ground_sides_->passes() : nullptr);
   if (residual_) residual_->hang(projection_.unknown(), projection_.reach(), time_);
 }
 
@@ -213,6 +218,10 @@ void FlowSolver<D>::project_start(const PorousMedium<D>& medium) {
         zero_wall(grid, a, side, flux_[a]);
   }
   sides_.push(mobility_, projection_.unknown(), flux_);
+  if (ground_sides_) {
+    ground_sides_->weigh(flux_);
+    ground_sides_->push(mobility_, projection_.unknown(), flux_);
+  }
   projection_.pull(mobility_, medium.suction, flux_);
   target_.fill(0.0);
   last_solve_ =
@@ -289,8 +298,9 @@ void FlowSolver<D>::transport(const PorousMedium<D>& medium, double dt,
   if (residual_) residual_->go_with_grains(grain_velocity, capacity_, dt, flux_);
   CellField<D>& moving = residual_ ? residual_->free() : water_;
   // Spray in gas keeps its planes: mixed, it would spread through the gas as mist.
+  if (ground_sides_) ground_sides_->add_inflow(sides_.inflow());
   interface_.sweep(moving, free_room(), flux_, dt, step_, gas_ ? Spray::sharp : Spray::mixed,
-                   &solids_.walls(), sides_.empty() ? nullptr : &sides_.inflow());
+                   &solids_.walls(), sides_.empty() && !ground_sides_ ? nullptr : &sides_.inflow());
   if (residual_) residual_->join(water_);
   const double* theta = porosity_.data();
   const double* given = medium.porosity.data();
@@ -313,6 +323,7 @@ void FlowSolver<D>::transport(const PorousMedium<D>& medium, double dt,
   if (solids_.moving()) follow_solids(medium);
   check_bounds();
   add_outflow();
+  if (ground_sides_) ground_sides_->count(carried_, dt);
   ghosts_.update(water_);
   ghosts_.update(porosity_);
   find_capacity(medium);
@@ -333,8 +344,9 @@ void FlowSolver<D>::advance(const PorousMedium<D>& medium, double dt, MovingGrai
   check_step(dt);
   transport(medium, dt, grains ? &grains->velocity : nullptr);
   if (!waves_.empty()) make_waves(dt);
+  outflow_ -= sum_over_ranks(*grid_, rain_.fall(medium.drains, porosity_, time_, dt, water_));
   update_derived(&medium);
-  find_sides(time_ + dt);
+  find_sides(time_ + dt, &medium);
   find_unknowns();
   if (options_.wall_law != WallLaw::resolved)
     find_wall_friction(*grid_, options_, saturation_, velocity_, wall_friction_);
@@ -390,9 +402,10 @@ void FlowSolver<D>::make_waves(double dt) {
 
 /// Sides that water flows through as given: from the present water and a time [s].
 template <int D>
-void FlowSolver<D>::find_sides(double time) {
-  if (sides_.empty()) return;
-  sides_.find(water_, porosity_, capacity_, time);
+void FlowSolver<D>::find_sides(double time, const PorousMedium<D>* medium) {
+  if (sides_.empty() && !ground_sides_) return;
+  if (!sides_.empty()) sides_.find(water_, porosity_, capacity_, time);
+  if (ground_sides_ && medium) ground_sides_->find(medium->drains, pressure_, capacity_, time);
   hold_sides();
 }
 
@@ -400,6 +413,7 @@ void FlowSolver<D>::find_sides(double time) {
 template <int D>
 void FlowSolver<D>::hold_sides() {
   sides_.apply(porosity_, water_, velocity_);
+  if (ground_sides_) ground_sides_->apply(porosity_, water_, velocity_);
 }
 
 template <int D>

@@ -112,6 +112,11 @@ class FlowSolver {
   /// Values at a position by linear interpolation; zero outside the domain. Collective.
   double pressure_at(const Vec<D>& position) const;
   Vec<D> velocity_at(const Vec<D>& position) const;
+  /// Of water out of the ground through a part of a side, mean over the last step [m^D/s].
+  /// Collective.
+  double ground_discharge(const std::string& side) const {
+    return ground_sides_ ? ground_sides_->discharge(side) : 0.0;
+  }
   /// Null where the flow has none.
   const Turbulence<D>* turbulence() const { return turbulence_ ? &*turbulence_ : nullptr; }
   const SolidBodies<D>& solids() const { return solids_; }
@@ -143,6 +148,7 @@ class FlowSolver {
     if (turbulence_) turbulence_->archive(a);
     if (storage_) storage_->archive(a);
     if (residual_) residual_->archive(a);
+    if (ground_sides_) ground_sides_->archive(a);
     update_derived();
     find_sides(time_);
   }
@@ -158,7 +164,7 @@ class FlowSolver {
   void find_target(const PorousMedium<D>& medium, double dt, double most);
   void add_outflow();
   void make_waves(double dt);
-  void find_sides(double time);
+  void find_sides(double time, const PorousMedium<D>* medium = nullptr);
   void hold_sides();
   void project_start(const PorousMedium<D>& medium);
   void find_unknowns();
@@ -186,6 +192,8 @@ class FlowSolver {
   WaveZones<D> waves_;
   FlowSides<D> sides_;
   WaveSources<D> sources_;
+  Rain<D> rain_;
+  std::optional<GroundSides<D>> ground_sides_;
   std::optional<TwoFluids<D>> gas_;
   std::optional<Turbulence<D>> turbulence_;
   std::optional<WaterStorage<D>> storage_;  ///< where water that gives way meets grains

@@ -12,6 +12,7 @@ namespace mudlark {
 template <int D>
 void FlowSolver<D>::push_given(const PorousMedium<D>& medium) {
   sides_.push(mobility_, projection_.unknown(), velocity_);
+  if (ground_sides_) ground_sides_->push(mobility_, projection_.unknown(), velocity_);
   if (!gas_) projection_.pull(mobility_, medium.suction, velocity_);
 }
 
@@ -58,9 +59,15 @@ void FlowSolver<D>::project_with_grains(const PorousMedium<D>& medium, const Cel
         grains.force[a].data()[at] += both.menisci()[a].data()[at];
       });
   }
+  if (ground_sides_) ground_sides_->note_mobility(mobility_);
   both.couple(capacity_, free_water(), free_room(), projection_.unknown(), projection_.reach(),
               residual_ ? &*residual_ : nullptr, dt, velocity_, mobility_, grains);
   hold_sides();
+  if (ground_sides_)
+    ground_sides_->move({dt, capacity_, grains.resistance, free_water(), free_room(),
+                         projection_.unknown(), grains.filling, velocity_, mobility_,
+                         both.flux_mobility(), both.water_share(), grains.velocity,
+                         both.grain_mobility()});
   push_given(medium);
   sides_.push(both.grain_mobility(), projection_.unknown(), grains.velocity);
   projection_.pull(both.grain_mobility(), medium.suction, grains.velocity);
@@ -72,6 +79,7 @@ void FlowSolver<D>::project_with_grains(const PorousMedium<D>& medium, const Cel
   if (storage_) storage_->count(water_, projection_.unknown(), pressure_);
   projection_.push(mobility_, pressure_, velocity_);
   projection_.push(both.grain_mobility(), pressure_, grains.velocity);
+  if (ground_sides_) ground_sides_->note_velocity(velocity_);
 }
 
 template void FlowSolver<2>::push_on_grains(const PorousMedium<2>&, FaceVector<2>&, FaceVector<2>&);

@@ -25,13 +25,6 @@ struct FaceSystem {
   }
 };
 
-/// S^2 / k_r: drag of water in partly filled pores over that in full ones. Less than a thousandth
-/// of them hardly moves.
-double pull_of_part(const PoreFilling& filling, double saturation) {
-  const double s = std::max(saturation, 1e-3);
-  return saturation * saturation / filling.relative_permeability(s);
-}
-
 }  // namespace
 
 template <int D>
@@ -75,7 +68,7 @@ void GrainsInWater<D>::couple(const FaceVector<D>& capacity, const CellField<D>&
         const double filled = known ? 1.0
                                     : filled_upstream(w[at - s] / room[at - s], w[at] / room[at],
                                                       (v[at] - grain_v[at]) / slow);
-        const double pull = known ? 1.0 : pull_of_part(grains.filling, filled);
+        const double pull = known ? 1.0 : drag_of_part(grains.filling, filled);
         const double resistance = grains.resistance[axis].data()[at];
         const double loose = residual && !known ? free_share[at] : 1.0;
         double force = grains.force[axis].data()[at];

@@ -53,8 +53,9 @@ class GrainsInWater {
   void find_flux(const FaceVector<D>& velocity, const MovingGrains<D>& grains);
   /// That flux [m/s], and what a unit pressure gradient takes from it and from v_s.
   FaceVector<D>& flux() { return flux_; }
-  const FaceVector<D>& flux_mobility() const { return flux_mobility_; }
-  const FaceVector<D>& grain_mobility() const { return grain_mobility_; }
+  FaceVector<D>& flux_mobility() { return flux_mobility_; }
+  FaceVector<D>& grain_mobility() { return grain_mobility_; }
+  FaceVector<D>& water_share() { return water_share_; }  ///< of a face, in that flux [-]
   FaceVector<D>& menisci() { return menisci_; }  ///< room for their force on the grains [N/m3]
   const FaceVector<D>& whole() const { return whole_; }  ///< 1 everywhere: the flux is whole
 

@@ -9,6 +9,8 @@
 #include "base/pore_filling.hpp"
 #include "base/varying.hpp"
 #include "flow/flow_sides.hpp"
+#include "flow/ground_sides.hpp"
+#include "flow/rain.hpp"
 #include "flow/wave_source.hpp"
 #include "grid/solid_options.hpp"
 
@@ -83,6 +85,8 @@ struct FlowOptions {
   std::vector<WaveSourceOptions> wave_sources;
   TurbulenceOptions turbulence;
   std::vector<FlowSideOptions> sides;
+  std::vector<GroundSideOptions> ground_sides;  ///< where water shares its pressure with grains
+  std::vector<RainOptions> rains;
   WallLaw wall_law = WallLaw::resolved;
   bool advection = true;  ///< momentum advection (off: Stokes flow, for tests)
   std::optional<std::array<Varying, 3>> body_acceleration;  ///< beside gravity [m/s2]

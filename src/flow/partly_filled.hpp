@@ -1,7 +1,10 @@
 #pragma once
-/// Which of two partly filled cells gives the water that passes the face between them.
+/// Water in pores that are not full: how grains hold it, and which of two cells gives what passes
+/// the face between them.
 #include <algorithm>
 #include <cmath>
+
+#include "base/pore_filling.hpp"
 
 namespace mudlark {
 
@@ -16,6 +19,13 @@ inline double undirected_speed(double gravity, double dt) {
 inline double filled_upstream(double below, double above, double direction) {
   const double from_below = 0.5 * (1.0 + std::tanh(direction));
   return std::clamp(above + from_below * (below - above), 0.0, 1.0);
+}
+
+/// S^2 / k_r: drag of water in partly filled pores over that in full ones. Less than a thousandth
+/// of them hardly moves.
+inline double drag_of_part(const PoreFilling& filling, double saturation) {
+  const double s = std::max(saturation, 1e-3);
+  return saturation * saturation / filling.relative_permeability(s);
 }
 
 }  // namespace mudlark

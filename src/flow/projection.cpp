@@ -91,7 +91,8 @@ double Projection<D>::in_mean_cells(std::ptrdiff_t face, int axis) const {
 template <int D>
 void Projection<D>::find_surface(const CellField<D>& water, const CellField<D>& porosity,
                                  const FaceVector<D>& capacity, const CellField<D>& alpha,
-                                 const InterfaceAdvection<D>& interface) {
+                                 const InterfaceAdvection<D>& interface,
+                                 const FaceVector<D>* passes) {
   const Grid<D>& grid = *grid_;
   const double* w = water.data();
   const double* theta = porosity.data();
@@ -120,7 +121,7 @@ void Projection<D>::find_surface(const CellField<D>& water, const CellField<D>& 
         here = 0.0;
     });
   }
-  find_wall_distances();
+  find_wall_distances(passes);
 }
 
 template <int D>
@@ -139,11 +140,11 @@ void Projection<D>::cover_all(const CellField<D>& porosity, const CellField<D>& 
       distance_here[at] = joined ? in_mean_cells(at, axis) : 0.0;
     });
   }
-  find_wall_distances();
+  find_wall_distances(nullptr);
 }
 
 template <int D>
-void Projection<D>::find_wall_distances() {
+void Projection<D>::find_wall_distances(const FaceVector<D>* passes) {
   const Grid<D>& grid = *grid_;
   for (int axis = 0; axis < D; ++axis)
     for (int side = 0; side < 2; ++side) {
@@ -158,7 +159,8 @@ void Projection<D>::find_wall_distances() {
       double* distance_here = distance_[axis].data();
       const double* unknown = unknown_.data();
       for_each_offset(grid, wall, [&](std::ptrdiff_t at) {
-        distance_here[at] = open && unknown[at + inside] > 0.0 ? half : 0.0;
+        const bool through = open || (passes && (*passes)[axis].data()[at] > 0.0);
+        distance_here[at] = through && unknown[at + inside] > 0.0 ? half : 0.0;
       });
       // Nothing behind a wall is an unknown: the mirror cell only served the interface.
       IndexBox<D> behind = grid.owned();

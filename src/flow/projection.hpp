@@ -14,11 +14,11 @@ class Projection {
 
   /// Finds the cells with a pressure unknown (alpha >= 1/2) and, for each of their faces, the
   /// distance over which the pressure falls, in mean cells: that of the centres between two
-  /// unknowns, xi to the surface (where p = 0), half a cell to an open wall. `alpha` needs valid
-  /// ghosts.
+  /// unknowns, xi to the surface (where p = 0), half a cell to an open wall, or to a closed one
+  /// where it `passes` water (1; null: nowhere). `alpha` needs valid ghosts.
   void find_surface(const CellField<D>& water, const CellField<D>& porosity,
                     const FaceVector<D>& capacity, const CellField<D>& alpha,
-                    const InterfaceAdvection<D>& interface);
+                    const InterfaceAdvection<D>& interface, const FaceVector<D>* passes = nullptr);
 
   /// Without a surface: every cell with room has a pressure unknown. In a closed box its mean,
   /// weighted by `reference`, is zero.
@@ -54,7 +54,7 @@ class Projection {
                   const InterfaceAdvection<D>& interface) const;
   double in_mean_cells(double xi, std::ptrdiff_t wet, int axis, int direction) const;
   double in_mean_cells(std::ptrdiff_t face, int axis) const;
-  void find_wall_distances();
+  void find_wall_distances(const FaceVector<D>* passes);
   template <class Body>
   void for_each_meniscus(int axis, IndexBox<D> faces, const CellField<D>& suction,
                          Body&& body) const;

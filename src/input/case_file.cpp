@@ -43,6 +43,7 @@ CaseOptions read_case(const std::filesystem::path& file, std::span<const std::st
   read_boundaries(root, options);
   read_waves(root, options);
   read_openings(root, options);
+  read_rain(root, options);
   read_solvers(root, options, courant);
   finish_stages(stages, options);
   check_boundaries(root, options);

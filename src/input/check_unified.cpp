@@ -43,7 +43,10 @@ std::vector<std::string> excluded(const CaseOptions& options) {
   const auto has = [&](auto&& kind) {
     return std::any_of(soil.boundaries.begin(), soil.boundaries.end(), kind);
   };
-  no(has([](const SoilBoundary& part) { return part.for_water; }), "water through a [[boundary]]");
+  const bool passes = has(
+      [](const SoilBoundary& part) { return part.for_water && part.water != WaterSide::sealed; });
+  no(passes && options.flow && options.flow->body_acceleration,
+     "water through a [[boundary]] where flow_solver.body_acceleration shakes it");
   no(has([](const SoilBoundary& part) {
        return part.for_grains && part.grains != GrainSide::slip &&
               part.grains != GrainSide::fixed && part.grains != GrainSide::friction;
@@ -141,6 +144,37 @@ void keep_clear(Section& root, const CaseOptions& options) {
   }
 }
 
+GroundSideWater water_of(const SoilBoundary& part) {
+  if (part.water == WaterSide::inflow) return GroundSideWater::inflow;
+  if (part.water == WaterSide::seepage_face) return GroundSideWater::seepage_face;
+  // A drain has no water to give either.
+  const bool drained = !part.is_head && part.value.constant && part.value({}, 0.0) == 0.0;
+  if (drained) return GroundSideWater::seepage_face;
+  return part.is_head ? GroundSideWater::head : GroundSideWater::pressure;
+}
+
+/// Water in the ground is the flow's, and so are the sides that let it through.
+void hand_sides_to_flow(Section& root, CaseOptions& options) {
+  for (SoilBoundary& part : options.soil->boundaries) {
+    if (!part.for_water) continue;
+    part.for_water = false;
+    if (part.water == WaterSide::sealed) continue;
+    GroundSideOptions side;
+    side.name = part.name, side.axis = part.axis, side.side = part.side;
+    side.from = part.from, side.to = part.to;
+    side.water = water_of(part), side.value = part.value;
+    for (const FlowSideOptions& other : options.flow->sides)
+      if (parts_meet(side, other, options.domain.dimension))
+        root.reading().report.add(
+            root.place("boundary"),
+            fmt::format("boundary \"{}\" lets water through a part of a side of which \"{}\" says "
+                        "already what water does there.\n  Let \"from\" and \"to\" keep them "
+                        "apart.",
+                        part.name, other.name));
+    options.flow->ground_sides.push_back(std::move(side));
+  }
+}
+
 }  // namespace
 
 void check_unified(Section& root, CaseOptions& options) {
@@ -171,6 +205,7 @@ void check_unified(Section& root, CaseOptions& options) {
                              "relative_permeability, and soil \"{}\" has another than soil \"{}\"",
                              body.name, bodies.front().name));
   if (!options.flow) return;
+  hand_sides_to_flow(root, options);
   options.soil->body_acceleration = options.flow->body_acceleration;
   for (const WaterBody& water : options.flow->bodies) options.soil->flooded.push_back(water.shape);
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "input/sections.hpp"
+#include "input/unified.hpp"
 
 namespace mudlark {
 namespace {
@@ -179,7 +180,7 @@ void read_boundaries(Section& root, CaseOptions& options) {
       section.missing("grains", "a boundary says what holds for grains, pore_water, or both");
     const auto& bodies = options.soil->bodies;
     if (boundary.for_water && std::none_of(bodies.begin(), bodies.end(), [](const SoilBody& body) {
-          return body.pore_water == PoreWater::two_phase;
+          return body.pore_water != PoreWater::none;
         }))
       section.fail("pore_water", "no soil of this case has pore water");
     if (known) check_together(section, options, boundary);
@@ -215,6 +216,7 @@ void check_boundaries(Section& root, const CaseOptions& options) {
   if (!options.soil) return;
   const Value* value = root.raw("boundary");
   const auto* list = value ? std::get_if<List>(&value->data) : nullptr;
+  if (is_unified(*options.soil)) return;  // see check_unified()
   const auto& boundaries = options.soil->boundaries;
   for (std::size_t b = 0; b < boundaries.size() && list && b < list->size(); ++b) {
     const std::string problem = not_available(*options.soil, boundaries[b]);

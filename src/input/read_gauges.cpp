@@ -124,10 +124,13 @@ void read_solid_name(Section& section, const CaseOptions& options, GaugeOptions&
 }
 
 /// of = "NAME" of a boundary that says something of pore water.
-void read_boundary_name(Section& section, const SoilOptions& soil, GaugeOptions& gauge) {
+void read_boundary_name(Section& section, const CaseOptions& options, GaugeOptions& gauge) {
   std::vector<Choice<std::string>> choices;
-  for (const SoilBoundary& boundary : soil.boundaries)
+  for (const SoilBoundary& boundary : options.soil->boundaries)
     if (boundary.for_water) choices.push_back({boundary.name, boundary.name});
+  if (options.flow)
+    for (const GroundSideOptions& side : options.flow->ground_sides)
+      choices.push_back({side.name, side.name});
   if (choices.empty()) {
     section.has("of");
     return section.fail("quantity", "the case has no [[boundary]] with pore_water");
@@ -197,7 +200,7 @@ void read_gauges(Section& root, CaseOptions& options) {
     if (known && kind.of == Of::solid)
       read_solid_name(section, options, gauge);
     else if (known && gauge.quantity == GaugeQuantity::discharge && options.soil)
-      read_boundary_name(section, *options.soil, gauge);
+      read_boundary_name(section, options, gauge);
     else if (known)
       section.forbid("of", fmt::format("{} is not measured on a rigid body", kind.name));
     else

@@ -100,6 +100,8 @@ SidePart read_side(Section& section, int dimension);
 void read_range(Section& section, int dimension, int across, Point3& from, Point3& to);
 /// [[opening]]: after [domain] and [water].
 void read_openings(Section& root, CaseOptions& options);
+/// [[rain]]: after what [water], [[soil]] and [coupling] say.
+void read_rain(Section& root, CaseOptions& options);
 /// Checks what water does at a side against walls and other sides, and adds it.
 void add_flow_side(Section& section, CaseOptions& options, const FlowSideOptions& side);
 /// [[boundary]]: after [domain] and [[soil]].

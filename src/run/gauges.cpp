@@ -292,7 +292,8 @@ std::vector<double> read_gauge(World<D>& world, const GaugeOptions& gauge) {
     case GaugeQuantity::solid_collision:
       return read_solid(world, gauge);
     case GaugeQuantity::discharge:
-      return {world.soil()->discharge(gauge.of)};
+      return {world.unified() ? world.flow()->ground_discharge(gauge.of)
+                              : world.soil()->discharge(gauge.of)};
     default:
       return read_soil(world, gauge);
   }

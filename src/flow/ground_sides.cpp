@@ -1,0 +1,257 @@
+#include "flow/ground_sides.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "flow/flow_checks.hpp"
+#include "flow/partly_filled.hpp"
+#include "numerics/loops.hpp"
+
+namespace mudlark {
+namespace {
+
+/// What heads mean in a case without gravity [m/s2].
+constexpr double standard_gravity = 9.81;
+
+template <int D>
+bool within(const GroundSideOptions& options, const Vec<D>& position) {
+  const Point3 place = to_point3(position);
+  for (int axis = 0; axis < D; ++axis) {
+    const auto a = static_cast<std::size_t>(D == 2 && axis == 1 ? 2 : axis);
+    if (axis != options.axis && !(place[a] >= options.from[a] && place[a] < options.to[a]))
+      return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+template <int D>
+GroundSides<D>::GroundSides(const Grid<D>& grid, const std::vector<GroundSideOptions>& options,
+                            double density)
+    : grid_(&grid),
+      halo_(grid),
+      density_(density),
+      passes_(grid, "passes", "1"),
+      two_ways_(grid, "passes both ways", "1"),
+      inflow_(grid, "share of water in inflow", "1"),
+      pressure_(grid, "pressure on sides", "Pa"),
+      through_(grid, "velocity on sides", "m/s"),
+      alone_(grid, "mobility on sides", "m2 s/kg") {
+  for (const GroundSideOptions& one : options) sides_.push_back({one});
+}
+
+/// Calls body(at, index) for the faces of a side's part on this rank, those of the ghost layers
+/// across its axis included unless only `owned` ones are asked for.
+template <int D>
+template <class Body>
+void GroundSides<D>::for_each_face(const Side& side, bool owned, Body&& body) const {
+  const Grid<D>& grid = *grid_;
+  const int axis = side.options.axis;
+  if (!grid.touches(axis, side.options.side)) return;
+  IndexBox<D> box = owned ? grid.owned() : grid.local();
+  const IndexBox<D> wall = wall_faces(grid, axis, side.options.side);
+  box.lower[axis] = wall.lower[axis];
+  box.upper[axis] = wall.upper[axis];
+  for_each_place(grid, box, [&](std::ptrdiff_t at, const Index<D>& index) {
+    if (within(side.options, grid.face_centre(axis, index))) body(at, index);
+  });
+}
+
+template <int D>
+std::ptrdiff_t GroundSides<D>::inside(const Side& side) const {
+  return side.options.side == 0 ? 0 : -grid_->stride(side.options.axis);
+}
+template <int D>
+std::ptrdiff_t GroundSides<D>::outward(const Side& side) const {
+  return side.options.side == 0 ? -grid_->stride(side.options.axis)
+                                : grid_->stride(side.options.axis);
+}
+template <int D>
+double GroundSides<D>::gap(const Side& side) const {
+  const int axis = side.options.axis;
+  return 0.5 * grid_->width(axis, side.options.side == 0 ? 0 : grid_->cells()[axis] - 1);
+}
+
+template <int D>
+void GroundSides<D>::find(const CellField<D>& ground, const CellField<D>& pressure,
+                          const FaceVector<D>& capacity, double time) {
+  const double gravity = std::abs(grid_->gravity()[D - 1]);
+  for (const Side& side : sides_) {
+    const int axis = side.options.axis;
+    const GroundSideWater kind = side.options.water;
+    const std::ptrdiff_t in = inside(side);
+    const double weight = -inwards(side) * density_ * grid_->gravity()[axis] * gap(side);
+    for_each_face(side, false, [&](std::ptrdiff_t at, const Index<D>& face) {
+      const Vec<D> centre = grid_->face_centre(axis, face);
+      double value = kind == GroundSideWater::seepage_face
+                         ? 0.0
+                         : side.options.value(to_point3(centre), time);
+      const bool flux = kind == GroundSideWater::inflow;
+      if (kind == GroundSideWater::head)
+        value = std::max(gravity > 0.0 ? density_ * gravity * (value - centre[D - 1])
+                                       : density_ * standard_gravity * value,
+                         0.0);
+      const bool holds = ground.data()[at + in] > 0.0;
+      const bool both =
+          kind == GroundSideWater::pressure || (kind == GroundSideWater::head && value > 0.0);
+      const bool driven_out = pressure.data()[at + in] + weight > 0.0;
+      two_ways_[axis].data()[at] = holds && both ? 1.0 : 0.0;
+      passes_[axis].data()[at] = holds && !flux && (both || driven_out) ? 1.0 : 0.0;
+      inflow_[axis].data()[at] = holds && (both || flux) ? 1.0 : 0.0;
+      pressure_[axis].data()[at] = flux ? 0.0 : value;
+      double& v = through_[axis].data()[at];
+      if (!holds) v = 0.0;
+      if (!flux) return;
+      const double open = capacity[axis].data()[at];
+      // Nothing is drawn out of pores that are not full.
+      const bool there = value > 0.0 || pressure.data()[at + in] != 0.0;
+      v = holds && open > 0.0 && there ? inwards(side) * value / open : 0.0;
+    });
+  }
+  halo_.exchange(through_);
+  fill_rows_behind_sides();
+}
+
+/// Rows behind other sides have no owner: they are as the last ones in the domain.
+template <int D>
+void GroundSides<D>::fill_rows_behind_sides() {
+  const IndexBox<D> owned = grid_->owned();
+  for (const Side& side : sides_) {
+    FaceField<D>& v = through_[side.options.axis];
+    for_each_face(side, false, [&](std::ptrdiff_t at, const Index<D>& face) {
+      Index<D> from = face;
+      for (int a = 0; a < D; ++a) {
+        if (a == side.options.axis) continue;
+        if (grid_->touches(a, 0)) from[a] = std::max(from[a], owned.lower[a]);
+        if (grid_->touches(a, 1)) from[a] = std::min(from[a], owned.upper[a] - 1);
+      }
+      v.data()[at] = v[from];
+    });
+  }
+}
+
+template <int D>
+void GroundSides<D>::apply(const CellField<D>& porosity, CellField<D>& water,
+                           FaceVector<D>& velocity) const {
+  for (const Side& side : sides_) {
+    const int axis = side.options.axis;
+    const std::ptrdiff_t out = outward(side);
+    const double *through = through_[axis].data(), *share = inflow_[axis].data();
+    double* v = velocity[axis].data();
+    for_each_face(side, false, [&](std::ptrdiff_t at, const Index<D>&) {
+      const std::ptrdiff_t behind = side.options.side == 0 ? at + out : at;
+      v[at] = through[at];
+      v[at + out] = through[at];
+      if (through[at] != 0.0) water.data()[behind] = share[at] * porosity.data()[behind];
+    });
+  }
+}
+
+template <int D>
+void GroundSides<D>::add_inflow(FaceVector<D>& inflow) const {
+  for (const Side& side : sides_)
+    for_each_face(side, false, [&](std::ptrdiff_t at, const Index<D>&) {
+      inflow[side.options.axis].data()[at] = inflow_[side.options.axis].data()[at];
+    });
+}
+
+/// Where the cell behind is not full there is no pressure in it: water of the side comes in against
+/// none, and the cell's own falls out by its relative permeability.
+template <int D>
+void GroundSides<D>::move(const WaterAtSides<D>& at_sides) const {
+  for (const Side& side : sides_) {
+    const int axis = side.options.axis;
+    const std::ptrdiff_t in = inside(side);
+    const double dt = at_sides.dt, sign = inwards(side), fall = dt * grid_->gravity()[axis];
+    for_each_face(side, true, [&](std::ptrdiff_t at, const Index<D>&) {
+      double &v = at_sides.velocity[axis].data()[at], &m = at_sides.mobility[axis].data()[at];
+      at_sides.grain_velocity[axis].data()[at] = at_sides.grain_mobility[axis].data()[at] = 0.0;
+      const double theta = at_sides.capacity[axis].data()[at];
+      at_sides.water_share[axis].data()[at] = theta;
+      const double before = through_[axis].data()[at], alone = alone_[axis].data()[at];
+      m = at_sides.flux_mobility[axis].data()[at] = 0.0;
+      v = side.options.water == GroundSideWater::inflow ? before : 0.0;
+      if (side.options.water == GroundSideWater::inflow || theta == 0.0) return;
+      const bool wet = at_sides.unknown.data()[at + in] > 0.0;
+      const bool comes = two_ways_[axis].data()[at] > 0.0 && pressure_[axis].data()[at] > 0.0;
+      if (wet && passes_[axis].data()[at] == 0.0) return;
+      const double room = at_sides.room.data()[at + in];
+      const bool part = !wet && !comes && room > 0.0;
+      const double filled = part ? std::min(at_sides.water.data()[at + in] / room, 1.0) : 1.0;
+      const double pull = part ? drag_of_part(at_sides.filling, filled) : 1.0;
+      const double mass = filled * theta * dt / alone;
+      const double drag = dt * pull * theta * theta * at_sides.resistance[axis].data()[at];
+      if (mass + drag <= 0.0) return;
+      v = mass * (density_ * (before + fall) * alone / dt) / (mass + drag);
+      const double answer = dt * theta / (mass + drag);
+      if (wet) {
+        m = answer;
+        at_sides.flux_mobility[axis].data()[at] = theta * answer;
+      } else if (comes) {
+        v += sign * answer * pressure_[axis].data()[at] / gap(side);
+      } else if (sign * v > 0.0) {
+        v = 0.0;
+      }
+    });
+  }
+}
+
+template <int D>
+void GroundSides<D>::weigh(FaceVector<D>& velocity) const {
+  for (const Side& side : sides_) {
+    const int axis = side.options.axis;
+    for_each_face(side, true, [&](std::ptrdiff_t at, const Index<D>&) {
+      if (passes_[axis].data()[at] > 0.0)
+        velocity[axis].data()[at] = grid_->gravity()[axis];
+    });
+  }
+}
+
+template <int D>
+void GroundSides<D>::push(const FaceVector<D>& mobility, const CellField<D>& unknown,
+                          FaceVector<D>& velocity) const {
+  for (const Side& side : sides_) {
+    const int axis = side.options.axis;
+    const std::ptrdiff_t in = inside(side);
+    const double per_gap = inwards(side) / gap(side);
+    for_each_face(side, true, [&](std::ptrdiff_t at, const Index<D>&) {
+      if (unknown.data()[at + in] == 0.0 || passes_[axis].data()[at] == 0.0) return;
+      velocity[axis].data()[at] +=
+          mobility[axis].data()[at] * pressure_[axis].data()[at] * per_gap;
+    });
+  }
+}
+
+template <int D>
+void GroundSides<D>::note_velocity(const FaceVector<D>& velocity) {
+  for (const Side& side : sides_)
+    for_each_face(side, true, [&](std::ptrdiff_t at, const Index<D>&) {
+      through_[side.options.axis].data()[at] = velocity[side.options.axis].data()[at];
+    });
+  halo_.exchange(through_);
+  fill_rows_behind_sides();
+}
+
+template <int D>
+void GroundSides<D>::count(const FaceVector<D>& carried, double dt) {
+  for (Side& side : sides_) {
+    double in = 0.0;
+    for_each_face(side, true, [&](std::ptrdiff_t at, const Index<D>&) {
+      in += carried[side.options.axis].data()[at];
+    });
+    side.discharge = -inwards(side) * in * grid_->cell_volume() / dt;
+  }
+}
+
+template <int D>
+double GroundSides<D>::discharge(const std::string& name) const {
+  for (const Side& side : sides_)
+    if (side.options.name == name) return sum_over_ranks(*grid_, side.discharge);
+  return 0.0;
+}
+
+template class GroundSides<2>;
+template class GroundSides<3>;
+
+}  // namespace mudlark

@@ -1,0 +1,126 @@
+#pragma once
+/// Closed sides of the domain that hold the grains of the ground and let its water through: given
+/// pressures, seepage faces and given fluxes.
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "base/pore_filling.hpp"
+#include "base/varying.hpp"
+#include "grid/halo.hpp"
+
+namespace mudlark {
+
+/// pressure: of the water behind the side, in and out. head: of water at rest with a level, below
+/// that level; above it a seepage face. seepage_face: water leaves at zero pressure, none comes in.
+/// inflow: a flux into the ground.
+enum class GroundSideWater { pressure, head, seepage_face, inflow };
+
+/// A side of the domain, or those of its faces whose centres lie between two corners.
+struct GroundSideOptions {
+  std::string name;
+  int axis = 0, side = 0;
+  Point3 from{-infinite, -infinite, -infinite}, to{infinite, infinite, infinite};  ///< [m]
+  GroundSideWater water = GroundSideWater::seepage_face;
+  Varying value;  ///< pressure [Pa], level [m], or flux into the ground [m/s]
+
+  static constexpr double infinite = std::numeric_limits<double>::infinity();
+};
+
+/// What water and grains bring to a step at the faces of sides, and what becomes of the water's
+/// velocity and of its answer to pressure there.
+template <int D>
+struct WaterAtSides {
+  double dt;                         ///< [s]
+  const FaceVector<D>& capacity;     ///< theta_f [-]
+  const FaceVector<D>& resistance;   ///< mu/kappa [Pa s/m2]
+  const CellField<D>& water;         ///< free water W [-]
+  const CellField<D>& room;          ///< its room [-]
+  const CellField<D>& unknown;       ///< 1 in cells with a pressure
+  const PoreFilling& filling;        ///< of pores that are not full
+  FaceVector<D>& velocity;           ///< [m/s]
+  FaceVector<D>& mobility;           ///< of the water at held grains [m2 s/kg]
+  FaceVector<D>& flux_mobility;      ///< theta times that [m2 s/kg]
+  FaceVector<D>& water_share;        ///< theta_f [-]
+  FaceVector<D>& grain_velocity;     ///< zero on the sides [m/s]
+  FaceVector<D>& grain_mobility;     ///< zero on the sides [m2 s/kg]
+};
+
+/// The pressure of a side stands half a cell before the first cell centre, and between them lies
+/// ground like that of the cell: M_l dv/dt = theta (rho g - dp/dn) - theta^2 A v, A = mu/kappa. So
+/// the side is a Dirichlet value of the one pressure.
+template <int D>
+class GroundSides {
+ public:
+  GroundSides(const Grid<D>& grid, const std::vector<GroundSideOptions>& options, double density);
+
+  /// Pressures at `time` [s] and the faces that pass: those with ground behind them (`ground`, 1 or
+  /// 0), on seepage faces where the last pressure [Pa] drives water out. Fields with ghosts.
+  /// Collective.
+  void find(const CellField<D>& ground, const CellField<D>& pressure, const FaceVector<D>& capacity,
+            double time);
+  /// Puts the water's velocities into the faces of sides and behind, and into the cells behind what
+  /// comes in.
+  void apply(const CellField<D>& porosity, CellField<D>& water, FaceVector<D>& velocity) const;
+  /// Sets the share of water in what comes in [-] on the faces of these sides.
+  void add_inflow(FaceVector<D>& inflow) const;
+  /// 1 on faces whose pressure is given.
+  const FaceVector<D>& passes() const { return passes_; }
+
+  /// The water's answer to pressure alone, before grains hold it [m2 s/kg].
+  void note_mobility(const FaceVector<D>& mobility) { alone_.copy_values_from(mobility); }
+  /// Momentum of the water on faces whose grains are held, drag implicit, pressure apart.
+  void move(const WaterAtSides<D>& at_sides) const;
+  /// Gravity, for the pressure of water at rest.
+  void weigh(FaceVector<D>& velocity) const;
+  /// Adds what the given pressures do; the pressure solve takes them for zero.
+  void push(const FaceVector<D>& mobility, const CellField<D>& unknown,
+            FaceVector<D>& velocity) const;
+  /// Velocities of the step that ends. Collective.
+  void note_velocity(const FaceVector<D>& velocity);
+
+  /// Adds up what passed in a step of dt [s]: `carried` as a share of a cell's volume.
+  void count(const FaceVector<D>& carried, double dt);
+  /// Out of the ground through a part, mean over the last step [m^D/s]. Collective.
+  double discharge(const std::string& name) const;
+
+  template <class Archive>
+  void archive(Archive& a) {
+    a.faces("velocity on sides of the ground", through_);
+    for (Side& side : sides_) {
+      double all = Archive::loading ? 0.0 : sum_over_ranks(*grid_, side.discharge);
+      a.number("discharge of side " + side.options.name, all);
+      if (Archive::loading) side.discharge = grid_->rank() == 0 ? all : 0.0;
+    }
+  }
+
+ private:
+  struct Side {
+    GroundSideOptions options;
+    double discharge = 0.0;  ///< of this rank, out of the ground [m^D/s]
+  };
+  template <class Body>
+  void for_each_face(const Side& side, bool owned, Body&& body) const;
+  void fill_rows_behind_sides();
+  double inwards(const Side& side) const { return side.options.side == 0 ? 1.0 : -1.0; }
+  /// From a face to the cell in the domain beside it, and to the next face outside.
+  std::ptrdiff_t inside(const Side& side) const;
+  std::ptrdiff_t outward(const Side& side) const;
+  double gap(const Side& side) const;  ///< between the side and the first cell centre [m]
+
+  const Grid<D>* grid_;
+  Halo<D> halo_;
+  double density_;
+  std::vector<Side> sides_;
+  FaceVector<D> passes_;
+  FaceVector<D> two_ways_;  ///< 1 where water may also come in
+  FaceVector<D> inflow_;    ///< share of water in what comes in [-]
+  FaceVector<D> pressure_;  ///< [Pa]
+  FaceVector<D> through_;   ///< velocity of the water through the sides [m/s]
+  FaceVector<D> alone_;
+};
+
+extern template class GroundSides<2>;
+extern template class GroundSides<3>;
+
+}  // namespace mudlark
