@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "flow/flow_checks.hpp"
+#include "flow/percolation.hpp"
 #include "flow/wall_friction.hpp"
 #include "numerics/loops.hpp"
 
@@ -344,6 +345,11 @@ void FlowSolver<D>::advance(const PorousMedium<D>& medium, double dt, MovingGrai
   check_step(dt);
   transport(medium, dt, grains ? &grains->velocity : nullptr);
   if (!waves_.empty()) make_waves(dt);
+  if (grains)
+    fall_to_surface(*grid_, medium, porosity_,
+                    {dt, -options_.density * grid_->gravity()[D - 1], grains->filling,
+                     grains->resistance, carried_},
+                    water_);
   outflow_ -= sum_over_ranks(*grid_, rain_.fall(medium.drains, porosity_, time_, dt, water_));
   update_derived(&medium);
   find_sides(time_ + dt, &medium);

@@ -84,9 +84,8 @@ void GroundSides<D>::find(const CellField<D>& ground, const CellField<D>& pressu
     const double weight = -inwards(side) * density_ * grid_->gravity()[axis] * gap(side);
     for_each_face(side, false, [&](std::ptrdiff_t at, const Index<D>& face) {
       const Vec<D> centre = grid_->face_centre(axis, face);
-      double value = kind == GroundSideWater::seepage_face
-                         ? 0.0
-                         : side.options.value(to_point3(centre), time);
+      double value =
+          kind == GroundSideWater::seepage_face ? 0.0 : side.options.value(to_point3(centre), time);
       const bool flux = kind == GroundSideWater::inflow;
       if (kind == GroundSideWater::head)
         value = std::max(gravity > 0.0 ? density_ * gravity * (value - centre[D - 1])
@@ -202,8 +201,7 @@ void GroundSides<D>::weigh(FaceVector<D>& velocity) const {
   for (const Side& side : sides_) {
     const int axis = side.options.axis;
     for_each_face(side, true, [&](std::ptrdiff_t at, const Index<D>&) {
-      if (passes_[axis].data()[at] > 0.0)
-        velocity[axis].data()[at] = grid_->gravity()[axis];
+      if (passes_[axis].data()[at] > 0.0) velocity[axis].data()[at] = grid_->gravity()[axis];
     });
   }
 }
@@ -217,8 +215,7 @@ void GroundSides<D>::push(const FaceVector<D>& mobility, const CellField<D>& unk
     const double per_gap = inwards(side) / gap(side);
     for_each_face(side, true, [&](std::ptrdiff_t at, const Index<D>&) {
       if (unknown.data()[at + in] == 0.0 || passes_[axis].data()[at] == 0.0) return;
-      velocity[axis].data()[at] +=
-          mobility[axis].data()[at] * pressure_[axis].data()[at] * per_gap;
+      velocity[axis].data()[at] += mobility[axis].data()[at] * pressure_[axis].data()[at] * per_gap;
     });
   }
 }

@@ -31,19 +31,19 @@ struct GroundSideOptions {
 /// velocity and of its answer to pressure there.
 template <int D>
 struct WaterAtSides {
-  double dt;                         ///< [s]
-  const FaceVector<D>& capacity;     ///< theta_f [-]
-  const FaceVector<D>& resistance;   ///< mu/kappa [Pa s/m2]
-  const CellField<D>& water;         ///< free water W [-]
-  const CellField<D>& room;          ///< its room [-]
-  const CellField<D>& unknown;       ///< 1 in cells with a pressure
-  const PoreFilling& filling;        ///< of pores that are not full
-  FaceVector<D>& velocity;           ///< [m/s]
-  FaceVector<D>& mobility;           ///< of the water at held grains [m2 s/kg]
-  FaceVector<D>& flux_mobility;      ///< theta times that [m2 s/kg]
-  FaceVector<D>& water_share;        ///< theta_f [-]
-  FaceVector<D>& grain_velocity;     ///< zero on the sides [m/s]
-  FaceVector<D>& grain_mobility;     ///< zero on the sides [m2 s/kg]
+  double dt;                        ///< [s]
+  const FaceVector<D>& capacity;    ///< theta_f [-]
+  const FaceVector<D>& resistance;  ///< mu/kappa [Pa s/m2]
+  const CellField<D>& water;        ///< free water W [-]
+  const CellField<D>& room;         ///< its room [-]
+  const CellField<D>& unknown;      ///< 1 in cells with a pressure
+  const PoreFilling& filling;       ///< of pores that are not full
+  FaceVector<D>& velocity;          ///< [m/s]
+  FaceVector<D>& mobility;          ///< of the water at held grains [m2 s/kg]
+  FaceVector<D>& flux_mobility;     ///< theta times that [m2 s/kg]
+  FaceVector<D>& water_share;       ///< theta_f [-]
+  FaceVector<D>& grain_velocity;    ///< zero on the sides [m/s]
+  FaceVector<D>& grain_mobility;    ///< zero on the sides [m2 s/kg]
 };
 
 /// The pressure of a side stands half a cell before the first cell centre, and between them lies

@@ -27,8 +27,9 @@ void read_rain(Section& root, CaseOptions& options) {
   if (sections.empty()) return;
   if (!options.flow)
     return root.reading().report.add(
-        root.place("rain"), "[[rain]] is flowing water, but there is no [[water.body]]\n  (a small "
-                            "one anywhere will do).");
+        root.place("rain"),
+        "[[rain]] is flowing water, but there is no [[water.body]]\n  (a small "
+        "one anywhere will do).");
   std::vector<std::string> names;
   for (Section& section : sections) {
     RainOptions rain;
@@ -43,10 +44,10 @@ void read_rain(Section& root, CaseOptions& options) {
     root.reading().report.add(root.place("rain"),
                               "rain does not go with water.air = \"gas\" yet\n  (gas would have to "
                               "make room for it). Leave out air.");
-  if (options.soil && options.coupling.mode == CouplingMode::surface)
+  if (options.soil && options.coupling.mode != CouplingMode::unified)
     root.reading().report.add(
         root.place("rain"),
-        "rain on soil needs coupling.mode = \"unified\"\n  (in \"surface\" the water in the pores "
+        "rain on soil needs coupling.mode = \"unified\"\n  (elsewhere the water in the pores "
         "is not that which flows).");
 }
 

@@ -22,6 +22,17 @@ constexpr double closed =
 /// A face flies freely from this share of water on; less is dust that goes with its surroundings,
 /// because the velocity of next to nothing is mostly round-off.
 constexpr double dust = 1e-6;
+/// Water that fills more than this of both cells of a face in the ground goes by its own drag up to
+/// the surface: what seeps down arrives there.
+constexpr double seeps = 0.1;
+
+/// Does water on its way through half empty pores pass a face of an axis?
+bool passes_ground(const double* water, const double* porosity, const double* drains,
+                   std::ptrdiff_t at, std::ptrdiff_t stride) {
+  for (const std::ptrdiff_t cell : {at, at - stride})
+    if (drains[cell] == 0.0 || !(water[cell] > seeps * porosity[cell])) return false;
+  return true;
+}
 
 }  // namespace
 
@@ -138,6 +149,12 @@ void VelocityExtension<D>::extend(const CellField<D>& unknown, const CellField<D
   for (int component = 0; component < D; ++component) {
     double* v = velocity[component].data();
     double* state = state_[component].data();
+    const std::ptrdiff_t s = grid.stride(component);
+    for_each_offset(grid, grid.owned().grown(ghost_layers - 1), [&](std::ptrdiff_t at) {
+      const bool own = state[at] == free_fly &&
+                       passes_ground(water.data(), porosity.data(), drains.data(), at, s);
+      if (own) state[at] = flying;
+    });
     grow_along_normal(component, water, porosity, v);
     const auto all = grid.local();
     for_each_offset(grid, all, [&](std::ptrdiff_t at) {

@@ -39,6 +39,10 @@ TEST_F(Ranks, GiveTheSameDryBankThatTakesInWater) {
   expect_the_same_on_ranks("one_water_partly_filled_2d");
 }
 
+TEST_F(Ranks, GiveTheSameLeveeBetweenSidesThatLetWaterThrough) {
+  expect_the_same_on_ranks("one_water_sides_2d");
+}
+
 TEST_F(Ranks, GiveTheSameWallPushedThroughASubmergedBed) {
   expect_the_same_on_ranks("one_water_solid_2d");
 }

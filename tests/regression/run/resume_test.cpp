@@ -80,6 +80,9 @@ TEST_F(Resume, AfterKillsGivesTheSameBitsOfACoupledRunIn3D) {
 TEST_F(Resume, AfterKillsGivesTheSameBitsOfARunWithOneWater) {
   kill_and_resume("one_water_2d", 2, 2, 8);
 }
+TEST_F(Resume, AfterKillsGivesTheSameBitsOfALeveeBetweenSidesThatLetWaterThrough) {
+  kill_and_resume("one_water_sides_2d", 2, 2, 11);
+}
 TEST_F(Resume, AfterKillsGivesTheSameBitsOfABodyInOneWater) {
   kill_and_resume("one_water_solid_2d", 2, 2, 9);
 }

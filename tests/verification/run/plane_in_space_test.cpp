@@ -84,24 +84,39 @@ TEST(PlaneInSpace, IsTheSameWithAir) {
   expect_the_same([](CaseOptions& c) { c.flow->gas.emplace(); }, 0.001, 60);
 }
 
+void add_sand_in_one_water(CaseOptions& c) {
+  SoilBody sand;
+  sand.name = "sand";
+  sand.shape = box(-9, 0.3, 0.1);
+  sand.pore_water = PoreWater::unified;
+  sand.intrinsic_permeability = 1e-9;
+  sand.points_per_cell = c.domain.dimension == 2 ? 4 : 8;
+  sand.law = MohrCoulombOptions{1e6, 0.3, 0.54, 10.0};
+  sand.initial_stress = GeostaticStress{};
+  SoilOptions soil;
+  soil.bodies.push_back(sand);
+  soil.flooded.push_back(c.flow->bodies.front().shape);
+  c.soil = soil;
+  c.coupling.mode = CouplingMode::unified;
+}
+
 TEST(PlaneInSpace, IsTheSameOverSoilWithOneWater) {
+  expect_the_same(add_sand_in_one_water, 2e-4, 500);
+}
+
+TEST(PlaneInSpace, IsTheSameBesideASideThatLetsWaterThroughUnderRain) {
   expect_the_same(
       [](CaseOptions& c) {
-        SoilBody sand;
-        sand.name = "sand";
-        sand.shape = box(-9, 0.3, 0.1);
-        sand.pore_water = PoreWater::unified;
-        sand.intrinsic_permeability = 1e-9;
-        sand.points_per_cell = c.domain.dimension == 2 ? 4 : 8;
-        sand.law = MohrCoulombOptions{1e6, 0.3, 0.54, 10.0};
-        sand.initial_stress = GeostaticStress{};
-        SoilOptions soil;
-        soil.bodies.push_back(sand);
-        soil.flooded.push_back(c.flow->bodies.front().shape);
-        c.soil = soil;
-        c.coupling.mode = CouplingMode::unified;
+        add_sand_in_one_water(c);
+        GroundSideOptions side;
+        side.name = "river", side.axis = 0, side.side = 0;
+        side.water = GroundSideWater::head, side.value = Varying(0.5);
+        c.flow->ground_sides.push_back(side);
+        RainOptions rain;
+        rain.name = "rain", rain.intensity = Varying(1e-3);
+        c.flow->rains.push_back(rain);
       },
-      2e-4, 500);
+      2e-4, 300);
 }
 
 }  // namespace
