@@ -1,4 +1,4 @@
-// ranks: 1 3
+// ranks: 1
 // Sides that hold the grains and let the one water through (docs/methods/coupling.md): levels,
 // drains, given fluxes, and rain.
 #include <gtest/gtest.h>
