@@ -56,6 +56,31 @@ def draw_water(axes, results, time, points=None):
     return state
 
 
+def water_share(results, time):
+    """Share of each cell's room that water fills, in the x-z plane; None without water."""
+    name = next((n for n in ("saturation", "water fraction") if n in results.field_names), None)
+    if name is None:
+        return None
+    state = results.field(name, time)
+    return middle_cut(state.values, len(state.lower))
+
+
+def only_in_water(results, time, values):
+    """NaN where no water is: beside a void the water's velocity is written some cells beyond its surface, too."""
+    share = None if results.has_gas else water_share(results, time)
+    return values if share is None else np.where(share > 0.02, values, np.nan)
+
+
+def draw_surface(axes, results, state):
+    """White line along the water's surface at the time of a state. Returns whether there is one."""
+    share = water_share(results, state.time)
+    if share is None or share.min() >= 0.5 or share.max() < 0.5:
+        return False
+    axes.contour(state.centres(0), state.centres(len(state.lower) - 1), share, levels=[0.5], colors=["white"],
+                 linewidths=1.2, zorder=3)
+    return True
+
+
 def near_points(state, points, reach):
     """Cells of the x-z plane with a soil point in them or within `reach` cells."""
     counts = (state.values.shape[0], state.values.shape[len(state.lower) - 1])
@@ -120,7 +145,9 @@ def sides(points):
             levels = np.unique(np.round(start[:, axis], 9))
             stretch = np.ptp(now[:, axis]) / np.ptp(levels) if len(levels) > 1 else 1.0
             step.append(np.median(np.diff(levels)) * np.clip(stretch, 0.5, 2.0) if len(levels) > 1 else np.nan)
-        if flat and np.all(np.isfinite(step)):
+        # Displacements that were reset count from places that are no lattice any more: points are squares then.
+        lattice = np.all(np.isfinite(step)) and 0.25 < step[0] * step[1] / np.median(volume[chosen]) < 4.0
+        if flat and lattice:
             # A body that keeps its width has points that keep theirs: all their volume goes from their height.
             confined = abs(np.ptp(now[:, 0]) / max(np.ptp(start[:, 0]), 1e-300) - 1) < 0.02
             width[chosen] = step[0] * (1.0 if confined else np.sqrt(volume[chosen] / (step[0] * step[1])))

@@ -129,6 +129,8 @@ def draw_field(results, name, times, path):
     cut = [drawing.middle_cut(state.values, len(state.lower)) for state in states]
     if states[0].values.ndim > len(states[0].lower):
         cut = [np.linalg.norm(values, axis=-1) for values in cut]
+    if name == "velocity":
+        cut = [drawing.only_in_water(results, state.time, values) for state, values in zip(states, cut)]
     norm = drawing.shared_norm(cut)
     factor, unit = drawing.unit_scale(states[0].unit, norm)
     norm = drawing.shared_norm([values * factor for values in cut])
@@ -137,6 +139,8 @@ def draw_field(results, name, times, path):
     figure, axes = panels_for(limits, len(times))
     for axis, state, values in zip(axes.flat, states, cut):
         image = drawing.draw_cells(axis, state, values * factor, norm=norm, cmap="viridis")
+        drawing.draw_surface(axis, results, state)
+        drawing.draw_solids(axis, results, state.time)
         finish_panel(axis, limits, state.time)
     figure.colorbar(image, ax=axes, label=f"{name} [{unit}]" if unit != "1" else name, shrink=0.8, pad=0.02)
     return save(figure, path, axes, len(times))

@@ -100,6 +100,13 @@ class Results:
         path = self.folder / "summary.json"
         return json.loads(path.read_text()) if path.exists() else {}
 
+    @property
+    def has_gas(self):
+        """Does air with mass flow beside the water?"""
+        path = self.folder / "case.toml"
+        return path.exists() and any(line.split("#")[0].replace(" ", "").startswith('air="gas"')
+                                     for line in path.read_text().splitlines())
+
     # ------------------------------------------------------------------------------------------- gauges
     @property
     def gauge_names(self):

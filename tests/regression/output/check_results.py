@@ -7,7 +7,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from mudlark import picture, plot, report
+from mudlark import drawing, picture, plot, report
 from mudlark.results import Results, ResultsError
 
 dimension, folder = int(sys.argv[1]), Path(sys.argv[2])
@@ -23,6 +23,8 @@ assert np.array_equal(state.values.reshape(cells[0], -1)[:, 0], (heights < 2.0).
 velocity = results.field("velocity")
 assert velocity.unit == "m/s" and velocity.values.shape == cells + (dimension,)
 assert np.allclose(velocity.values[..., 0], velocity.centres(0))
+shown = drawing.only_in_water(results, 1.0, drawing.middle_cut(velocity.values[..., 0], dimension))
+assert np.isfinite(shown[heights < 2.0]).all() and np.isnan(shown[heights > 2.0]).all()
 points = results.points(1.0)
 assert list(points["id"]) == [10, 20, 30] and list(points["pore pressure"]) == [1002.0, 2000.0, 3000.0]
 assert points["position"].shape == (3, 3) and np.isclose(points["position"][2, 2], 2.5)
@@ -34,6 +36,15 @@ try:
     raise SystemExit("a wrong name was accepted")
 except ResultsError as error:
     assert "saturation" in str(error)
+
+# Points of 0.1 by 0.1 m; places that have moved from the lattice by some micrometres are as good a start.
+x, z = np.meshgrid(np.arange(6) * 0.1, np.arange(4) * 0.1)
+place = np.stack([x.ravel(), 0 * x.ravel(), z.ravel()], axis=1)
+moved = place + 1e-5 * np.random.default_rng(1).random(place.shape) * [1, 0, 1]
+for start in (place, moved):
+    width, height = drawing.sides({"position": place, "initial position": start, "volume": np.full(24, 0.01),
+                                    "soil": np.zeros(24)})
+    assert np.allclose(width, 0.1, rtol=0.01) and np.allclose(height, 0.1, rtol=0.01), (width, height)
 
 for name in ("fields", "points"):
     root = ElementTree.parse(folder / f"{name}.xdmf").getroot()
