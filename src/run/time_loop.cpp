@@ -65,12 +65,16 @@ void check_hope(World<D>& world, double stable) {
 template <int D>
 class RunLog {
  public:
-  RunLog(World<D>& world, Results<D>& results, bool resumed) : world_(&world), results_(&results) {
+  RunLog(World<D>& world, Results<D>& results, bool resumed, bool quiet)
+      : world_(&world), results_(&results) {
     results.log(fmt::format("{}: Mudlark {} ({}), {} ranks, {} from t = {:.9g} s to {:.9g} s",
                             world.options().title, program_version(), program_commit(),
                             world.grid().ranks(), resumed ? "resumed" : "started",
                             world.clock().time(), world.options().time.end));
-    for (const std::string& warning : world.warnings()) results.log("warning: " + warning);
+    for (const std::string& warning : world.warnings()) {
+      results.log("warning: " + warning);
+      if (world.grid().rank() == 0 && !quiet) fmt::print(stderr, "warning: {}\n", warning);
+    }
   }
   void stage() {
     const std::size_t number = world_->clock().stage();
@@ -111,7 +115,7 @@ ExitCode run_to_end(World<D>& world, Results<D>& results, const RunSettings& set
   Progress progress(first && !settings.quiet, clock.time(), world.options().time.end);
   double saved = MPI_Wtime();
   bool noted = false;
-  RunLog<D> log(world, results, settings.resume);
+  RunLog<D> log(world, results, settings.resume, settings.quiet);
   try {
     results.write_due(world);
     results.write_summary(world, "running", "");

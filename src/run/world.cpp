@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "flow/fixed_ground.hpp"
+#include "run/doubts.hpp"
 
 namespace mudlark {
 namespace {
@@ -91,7 +92,9 @@ void World<D>::find_equilibrium() {
 
 template <int D>
 std::vector<std::string> World<D>::warnings() const {
-  std::vector<std::string> all = soil_ ? soil_->warnings() : std::vector<std::string>{};
+  std::vector<std::string> all = doubts(options_);
+  if (soil_)
+    for (std::string& warning : soil_->warnings()) all.push_back(std::move(warning));
   if (flow_ && flow_->solids().moving())
     all.emplace_back(
         "a [[solid]] moves through water. Where it enters or leaves through the surface single "

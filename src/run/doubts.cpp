@@ -1,0 +1,281 @@
+#include "run/doubts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "base/errors.hpp"
+#include "flow/wave_zone.hpp"
+
+namespace mudlark {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180.0;  // [rad]
+/// Below this an angle of friction is more likely one in radians [rad].
+constexpr double least_friction = 3.0 * degree;
+/// Dry grains lighter than this are more likely in g/cm3 or t/m3 [kg/m3].
+constexpr double lightest_grains = 500.0, lightest_water = 100.0;
+/// Of coarse gravel [m/s].
+constexpr double largest_conductivity = 1.0;
+/// Kinematic viscosity of water is 1e-6 m2/s; a dynamic one so small belongs to no liquid [Pa s].
+constexpr double least_viscosity = 1e-5;
+/// Cells that a wave needs at least over its height and its length.
+constexpr double least_cells_of_height = 1.0, least_cells_of_length = 15.0;
+
+double gravity_of(const DomainOptions& domain) {
+  double sum = 0.0;
+  for (const double g : domain.gravity) sum += g * g;
+  return std::sqrt(sum);
+}
+
+/// Smallest cell along an axis of the domain [m].
+double cell_size(const DomainOptions& domain, std::size_t axis) {
+  const std::vector<double>& faces = domain.faces[axis];
+  if (faces.empty()) return (domain.upper[axis] - domain.lower[axis]) / domain.cells[axis];
+  double smallest = faces[1] - faces[0];
+  for (std::size_t f = 1; f + 1 < faces.size(); ++f)
+    smallest = std::min(smallest, faces[f + 1] - faces[f]);
+  return smallest;
+}
+
+std::optional<double> young_modulus(const SoilLawOptions& law) {
+  return std::visit(
+      [](const auto& options) -> std::optional<double> {
+        if constexpr (requires { options.young_modulus; }) return options.young_modulus;
+        return {};
+      },
+      law);
+}
+
+std::optional<double> friction_angle(const SoilLawOptions& law) {
+  return std::visit(
+      [](const auto& options) -> std::optional<double> {
+        if constexpr (requires { options.friction_angle; }) return options.friction_angle;
+        return {};
+      },
+      law);
+}
+
+/// Does the field press or pull [Pa], in the middle of the cells that the body fills?
+double mean_initial_stress(const CaseOptions& options, const SoilBody& body) {
+  const auto* field = std::get_if<StressField>(&body.initial_stress);
+  if (!field) return 0.0;
+  const DomainOptions& domain = options.domain;
+  const BoxShape around = bounds(body.shape);
+  constexpr int samples = 8;
+  double sum = 0.0;
+  for (int i = 0; i < samples; ++i)
+    for (int k = 0; k < samples; ++k) {
+      Point3 place{};
+      for (int axis = 0; axis < domain.dimension; ++axis) {
+        const std::size_t at = axis == domain.dimension - 1 ? 2 : static_cast<std::size_t>(axis);
+        const auto own = static_cast<std::size_t>(axis);
+        const double lower = std::max(domain.lower[own], around.lower[at]);
+        const double upper = std::min(domain.upper[own], around.upper[at]);
+        const double share = at == 1 ? 0.5 : ((at == 2 ? k : i) + 0.5) / samples;
+        place[at] = lower + share * (upper - lower);
+      }
+      if (!body.shape.contains(place)) continue;
+      for (std::size_t c = 0; c < 3; ++c) sum += field->component[c](place, 0.0);
+    }
+  return sum;
+}
+
+void doubt_stiffness(const CaseOptions& options, const SoilBody& body,
+                     std::vector<std::string>& found) {
+  const std::optional<double> modulus = young_modulus(body.law);
+  if (!modulus) return;
+  const auto up = static_cast<std::size_t>(options.domain.dimension - 1);
+  const double height = std::min(options.domain.upper[up], bounds(body.shape).upper[2]) -
+                        std::max(options.domain.lower[up], bounds(body.shape).lower[2]);
+  const double weight =
+      (1.0 - body.porosity) * body.grain_density * gravity_of(options.domain) * height;
+  if (weight > *modulus)
+    found.push_back(
+        fmt::format("soil \"{}\": young_modulus = {:g} Pa is less than what its own weight presses "
+                    "with at its foot, {:.3g} Pa. Numbers without unit are Pa: write \"10 MPa\" "
+                    "for ten megapascals.",
+                    body.name, *modulus, weight));
+  const bool wet = body.pore_water != PoreWater::none;
+  if (wet && options.soil->water_bulk_modulus < *modulus)
+    found.push_back(fmt::format(
+        "soil \"{}\": the water in its pores is softer than its grains: water.bulk_modulus = {:g} "
+        "Pa is below young_modulus = {:g} Pa. Pure water has \"2.15 GPa\".",
+        body.name, options.soil->water_bulk_modulus, *modulus));
+}
+
+void doubt_grains(const CaseOptions& options, const SoilBody& body,
+                  std::vector<std::string>& found) {
+  const bool wet = body.pore_water != PoreWater::none;
+  const double least = wet ? options.soil->water_density : lightest_grains;
+  if (body.grain_density <= least)
+    found.push_back(fmt::format(
+        "soil \"{}\": grain_density = {:g} kg/m3{}. Quartz has 2650, or \"2.65 g/cm3\".", body.name,
+        body.grain_density, wet ? " is no more than that of the water: the grains float" : ""));
+  if (!wet || body.intrinsic_permeability == 0.0) return;
+  constexpr double standard_gravity = 9.81;
+  const double conductivity = body.intrinsic_permeability * options.soil->water_density *
+                              standard_gravity / options.soil->water_viscosity;
+  if (conductivity > largest_conductivity)
+    found.push_back(fmt::format(
+        "soil \"{}\": its hydraulic conductivity is {:.3g} m/s, more than that of coarse gravel. "
+        "Sand has 1e-5 to 1e-2 m/s.",
+        body.name, conductivity));
+}
+
+void doubt_soil(const CaseOptions& options, std::vector<std::string>& found) {
+  for (const SoilBody& body : options.soil->bodies) {
+    doubt_stiffness(options, body, found);
+    doubt_grains(options, body, found);
+    const double friction = friction_angle(body.law).value_or(0.0);
+    if (friction > 0.0 && friction < least_friction)
+      found.push_back(fmt::format(
+          "soil \"{}\": friction_angle = {:.3g} degree is hardly any. Numbers without unit are "
+          "degrees: write \"{:.3g} rad\" for radians.",
+          body.name, friction / degree, friction / degree));
+    if (mean_initial_stress(options, body) > 0.0)
+      found.push_back(
+          fmt::format("soil \"{}\": initial_stress pulls at the soil. Stresses are tension "
+                      "positive: write minus for compression.",
+                      body.name));
+  }
+}
+
+/// Height of the highest water at the start in a column [m]; nothing where it is dry.
+std::optional<double> water_level(const CaseOptions& options, double x, double y) {
+  const auto up = static_cast<std::size_t>(options.domain.dimension - 1);
+  const double step = 0.25 * cell_size(options.domain, up);
+  const auto at = [&](const auto& part, double z) { return part.shape.contains({x, y, z}); };
+  for (double z = options.domain.upper[up] - 0.5 * step; z > options.domain.lower[up]; z -= step) {
+    const auto here = [&](const auto& part) { return at(part, z); };
+    const FlowOptions& flow = *options.flow;
+    if (std::any_of(flow.bodies.begin(), flow.bodies.end(), here) &&
+        std::none_of(flow.solids.begin(), flow.solids.end(), here))
+      return z + 0.5 * step;
+  }
+  return {};
+}
+
+/// Level of the water at the start where a wave is made or absorbed, if that is still_level nowhere
+/// along it.
+std::optional<double> other_level(const CaseOptions& options, const WaveZoneOptions& zone,
+                                  double outer, double inner) {
+  const DomainOptions& domain = options.domain;
+  const auto up = static_cast<std::size_t>(domain.dimension - 1);
+  constexpr int columns = 11;
+  std::optional<double> other;
+  for (int c = 0; c < columns; ++c) {
+    const double along = outer + (inner - outer) * (c + 0.5) / columns;
+    const double across =
+        domain.dimension == 3 ? 0.5 * (domain.lower[1 - static_cast<std::size_t>(zone.axis)] +
+                                       domain.upper[1 - static_cast<std::size_t>(zone.axis)])
+                              : 0.0;
+    const std::optional<double> level = zone.axis == 0 ? water_level(options, along, across)
+                                                       : water_level(options, across, along);
+    if (!level) continue;
+    if (std::abs(*level - zone.still_level) <= cell_size(domain, up)) return {};
+    other = level;
+  }
+  return other;
+}
+
+void doubt_wave(const CaseOptions& options, const WaveZoneOptions& zone, double outer, double inner,
+                std::vector<std::string>& found) {
+  if (!std::holds_alternative<GivenWave>(zone.wave))
+    if (const auto level = other_level(options, zone, outer, inner))
+      found.push_back(fmt::format(
+          "wave \"{}\": still_level is {:g} m, and the water there stands at {:.4g} m when the run "
+          "starts: it rises or falls to still_level first.",
+          zone.name, zone.still_level, *level));
+  const auto* regular = std::get_if<RegularWave>(&zone.wave);
+  if (!regular) return;
+  const auto up = static_cast<std::size_t>(options.domain.dimension - 1);
+  const double high = cell_size(options.domain, up);
+  const double wide = cell_size(options.domain, static_cast<std::size_t>(zone.axis));
+  double length = 0.0;
+  try {
+    length = make_wave(zone, std::abs(options.domain.gravity[up]))->length();
+  } catch (const InputError&) {
+    return;  // told elsewhere
+  }
+  if (regular->height < least_cells_of_height * high || length < least_cells_of_length * wide)
+    found.push_back(fmt::format(
+        "wave \"{}\": it is {:.3g} cells high and {:.3g} long. Waves lose height on so few; ten "
+        "over the height and sixty over the length are good.",
+        zone.name, regular->height / high, length / wide));
+}
+
+/// A nozzle in the air: without a level it takes the water at the side for what comes in.
+void doubt_opening(const CaseOptions& options, const FlowSideOptions& side,
+                   std::vector<std::string>& found) {
+  const DomainOptions& domain = options.domain;
+  if (side.flow != SideFlow::velocity || side.level || side.axis == domain.dimension - 1) return;
+  const auto axis = static_cast<std::size_t>(side.axis);
+  const auto up = static_cast<std::size_t>(domain.dimension - 1);
+  const double inside = 0.5 * cell_size(domain, axis);
+  const double place = side.side == 0 ? domain.lower[axis] + inside : domain.upper[axis] - inside;
+  double depth = 0.0;  // of the water in the column, wherever it stands
+  const double step = 0.25 * cell_size(domain, up);
+  Point3 at{};
+  at[axis] = place;
+  if (domain.dimension == 3) {
+    const std::size_t across = 1 - axis;
+    at[across] = 0.5 * (std::max(side.from[across], domain.lower[across]) +
+                        std::min(side.to[across], domain.upper[across]));
+  }
+  for (at[2] = domain.lower[up] + 0.5 * step; at[2] < domain.upper[up]; at[2] += step)
+    if (std::any_of(options.flow->bodies.begin(), options.flow->bodies.end(),
+                    [&](const WaterBody& body) { return body.shape.contains(at); }))
+      depth += step;
+  const double foot = std::max(side.from[2], domain.lower[up]);
+  if (domain.lower[up] + depth > foot) return;
+  found.push_back(fmt::format(
+      "opening \"{}\" lets nothing in: it begins at {:g} m, above the water at its side, and what "
+      "comes in is water only below `level`, by default that of the water there. Write level = {:g} "
+      "for a full jet.",
+      side.name, foot, std::min(side.to[2], domain.upper[up])));
+}
+
+void doubt_water(const CaseOptions& options, std::vector<std::string>& found) {
+  const FlowOptions& flow = *options.flow;
+  if (flow.density < lightest_water)
+    found.push_back(fmt::format("water.density = {:g} kg/m3. Fresh water has 1000, or \"1 g/cm3\".",
+                                flow.density));
+  if (flow.viscosity > 0.0 && flow.viscosity < least_viscosity)
+    found.push_back(fmt::format(
+        "water.viscosity = {:g} Pa s is the dynamic one: water has 1e-3 Pa s (1e-6 m2/s is its "
+        "kinematic viscosity).",
+        flow.viscosity));
+  for (const WaveZoneOptions& zone : flow.waves)
+    doubt_wave(options, zone, zone.outer, zone.inner, found);
+  for (const WaveSourceOptions& source : flow.wave_sources)
+    doubt_wave(options, source.wave, source.wave.outer, source.wave.outer, found);
+  for (const FlowSideOptions& side : flow.sides) {
+    if (side.flow != SideFlow::wave) {
+      doubt_opening(options, side, found);
+      continue;
+    }
+    const auto axis = static_cast<std::size_t>(side.axis);
+    const double inwards = side.side == 0 ? 1.0 : -1.0;
+    const double place = side.side == 0 ? options.domain.lower[axis] : options.domain.upper[axis];
+    doubt_wave(options, side.wave, place, place + inwards * cell_size(options.domain, axis), found);
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> doubts(const CaseOptions& options) {
+  std::vector<std::string> found;
+  if (options.soil) doubt_soil(options, found);
+  if (options.flow) doubt_water(options, found);
+  if (options.soil && options.flow && options.coupling.mode == CouplingMode::none)
+    found.emplace_back(
+        "soil and flowing water do not feel each other: coupling.mode is \"none\". Write [coupling] "
+        "mode = \"surface\"; or \"unified\", for soil with pore_water = \"unified\".");
+  return found;
+}
+
+}  // namespace mudlark
