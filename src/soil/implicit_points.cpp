@@ -5,10 +5,12 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "soil/implicit_nodes.hpp"
 #include "soil/point_report.hpp"
 #include "soil/splitting.hpp"
+#include "soil/stable_step.hpp"
 
 namespace mudlark {
 namespace {
@@ -245,17 +247,27 @@ void ImplicitPoints<D>::add_residual(const ImplicitFields<D>& state,
 
 template <int D>
 double ImplicitPoints<D>::smallest_residual() const {
-  double force = 0.0;
+  const double spacing = problem_->grid.smallest_spacing();
+  double force = 0.0, rounding = 0.0, count = 0.0;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const auto& points = problem_->bodies[b];
+    const double modulus = largest_wave_modulus(points, *problem_->laws[b]);
+    count += static_cast<double>(points.size());
     for (std::size_t p = 0; p < points.size(); ++p) {
       const SymTensor stress = get_tensor(points.stress, p);
       const double pressure = std::sqrt(stress.squared_norm()) + std::abs(points.pore_pressure[p]) +
                               std::abs(bodies_[b].load[p]);
-      force = std::max(force, pressure * points.volume[p] / problem_->grid.smallest_spacing());
+      force = std::max(force, pressure * points.volume[p] / spacing);
+      rounding = std::max(rounding, modulus * points.volume[p] / spacing);
     }
   }
-  return std::max(1e-9 * max_over_ranks(problem_->grid, force), 1e-12);
+  // F = I + grad u is known to the last digit of 1, so stress to the last digit of the modulus:
+  // what the points leave of that on the faces adds up as the root of their number. Soil that is
+  // stiff against what it carries could not get below it.
+  MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPI_DOUBLE, MPI_SUM, problem_->grid.comm());
+  rounding = std::numeric_limits<double>::epsilon() * std::sqrt(count) *
+             max_over_ranks(problem_->grid, rounding);
+  return std::max({1e-9 * max_over_ranks(problem_->grid, force), rounding, 1e-12});
 }
 
 /// Moves the points; velocities are the step's means.

@@ -176,5 +176,29 @@ TEST(Implicit, PressesMohrCoulombSoilToItsStrength) {
   }
 }
 
+// A strip load that takes half an hour to come: in the first steps, of 1e-2 s, ground of 20 MPa
+// carries a tenth of a pascal, and the digits of 1 + strain are all that its stress has.
+TEST(Implicit, StiffGroundTakesALoadThatGrowsSlowlyFromNothing) {
+  const Grid<2> grid = soil_runs::make_grid<2>({20, 20}, 0.5, "ssno", 0.0, MPI_COMM_WORLD);
+  SoilOptions options = soil_runs::make_soil(2, {-1, -1, -1}, {11, 11, 9.0}, false);
+  options.bodies[0].law = LinearElasticOptions{2e7, 0.3};
+  options.method = TimeMethod::implicit_steps;
+  options.loads.push_back(
+      {"strip", Varying([](const Point3& x,
+                           double t) { return x[0] < 1.0 ? 2e4 * std::min(1.0, t / 1800.0) : 0.0; },
+                        "ramp")});
+  SoilSolver<2> soil(grid, options);
+  soil.initialise();
+  const int steps = run_to(soil, 1800.0, 1e9);
+  EXPECT_LT(steps, 100);
+  // All of the load arrives at the foot.
+  double foot = 0.0, all = 0.0;
+  const auto& points = soil.points(0);
+  for (std::size_t p = 0; p < points.size(); ++p)
+    if (points.start[1][p] < 0.5) foot -= 0.5 * points.stress[2][p] * 0.25;
+  MPI_Allreduce(&foot, &all, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+  EXPECT_NEAR(all, 2e4, 0.02 * 2e4);
+}
+
 }  // namespace
 }  // namespace mudlark
