@@ -6,6 +6,19 @@
 #include "numerics/loops.hpp"
 
 namespace mudlark {
+namespace {
+
+/// How many steps late a free body answers to a slow change of force. With m the mass, m_a the
+/// added mass on both sides of Newton's law and mu the water's true one, the acceleration s of a
+/// step is (G + (m_a - mu) s_last)/(m + m_a): it follows G/(m + mu) late by (m_a - mu)/(m + mu)
+/// steps. mu is not known; half of m_a is that of a body that floats.
+double steps_late(const Solid& body) {
+  if (body.mobility() == 0.0) return 0.0;
+  const double added = std::max(0.0, 1.0 / body.mobility() - body.mass());
+  return 0.5 * added / (body.mass() + 0.5 * added);
+}
+
+}  // namespace
 
 template <int D>
 void FlowSolver<D>::restore(PorousMedium<D>& medium) {
@@ -28,9 +41,10 @@ template <int D>
 void FlowSolver<D>::push_solids(std::vector<Solid>& leaders, double dt) const {
   for (Solid& leader : leaders) {
     if (!leader.free()) continue;
-    // Where the body will be: else what drives a floating body back comes a step late, and its
-    // heave would grow (Euler's explicit method).
-    const SolidLoad load = solid_load_ahead(*solids_.find(leader.options().name), dt);
+    // Where the body will be when it answers: else what drives a floating body back comes late, and
+    // its heave and roll would grow (Euler's explicit method).
+    const SolidLoad load =
+        solid_load_ahead(*solids_.find(leader.options().name), (1.0 + steps_late(leader)) * dt);
     leader.feel_water(load.force, load.moment, dt);
   }
 }

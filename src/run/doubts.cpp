@@ -169,12 +169,12 @@ std::optional<double> other_level(const CaseOptions& options, const WaveZoneOpti
   std::optional<double> other;
   for (int c = 0; c < columns; ++c) {
     const double along = outer + (inner - outer) * (c + 0.5) / columns;
-    const double across =
-        domain.dimension == 3 ? 0.5 * (domain.lower[1 - static_cast<std::size_t>(zone.axis)] +
+    const double across = domain.dimension == 3
+                              ? 0.5 * (domain.lower[1 - static_cast<std::size_t>(zone.axis)] +
                                        domain.upper[1 - static_cast<std::size_t>(zone.axis)])
                               : 0.0;
-    const std::optional<double> level = zone.axis == 0 ? water_level(options, along, across)
-                                                       : water_level(options, across, along);
+    const std::optional<double> level =
+        zone.axis == 0 ? water_level(options, along, across) : water_level(options, across, along);
     if (!level) continue;
     if (std::abs(*level - zone.still_level) <= cell_size(domain, up)) return {};
     other = level;
@@ -234,7 +234,8 @@ void doubt_opening(const CaseOptions& options, const FlowSideOptions& side,
   if (domain.lower[up] + depth > foot) return;
   found.push_back(fmt::format(
       "opening \"{}\" lets nothing in: it begins at {:g} m, above the water at its side, and what "
-      "comes in is water only below `level`, by default that of the water there. Write level = {:g} "
+      "comes in is water only below `level`, by default that of the water there. Write level = "
+      "{:g} "
       "for a full jet.",
       side.name, foot, std::min(side.to[2], domain.upper[up])));
 }
@@ -273,7 +274,8 @@ std::vector<std::string> doubts(const CaseOptions& options) {
   if (options.flow) doubt_water(options, found);
   if (options.soil && options.flow && options.coupling.mode == CouplingMode::none)
     found.emplace_back(
-        "soil and flowing water do not feel each other: coupling.mode is \"none\". Write [coupling] "
+        "soil and flowing water do not feel each other: coupling.mode is \"none\". Write "
+        "[coupling] "
         "mode = \"surface\"; or \"unified\", for soil with pore_water = \"unified\".");
   return found;
 }

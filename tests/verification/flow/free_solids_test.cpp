@@ -166,6 +166,32 @@ TEST(FreeSolids, AFloatingBoxHeavesAroundItsDraught) {
   EXPECT_NEAR(water.present, water.initial, 1e-12 * water.initial);
 }
 
+/// A box that floats upright (metacentre 8 cm above its centre) and is set rolling: waves take some
+/// of its swing away and nothing may bring it back, in the long steps of the water either.
+TEST(FreeSolids, AFloatingBoxRollsWithoutGain) {
+  const double width = 0.4, height = 0.2, level = 0.613;
+  const double left = 0.81, bottom = level - 0.5 * height;
+  const Shape box{BoxShape{{left, -9.0, bottom}, {left + width, 9.0, bottom + height}}};
+  FreeSolid motion = of_density(0.5 * rho);
+  motion.locked[0] = true;
+  motion.angular_velocity[1] = 0.5;
+  FlowOptions options;
+  options.bodies = {water_box({-1.0, -1.0, -1.0}, {3.0, 9.0, level})};
+  options.solids = {free_body(box, motion)};
+  const DomainOptions domain = flow_domain({40, 20, 1}, {2.0, 1.0, 1.0}, {0.0, -gravity, 0.0});
+  FlowRun<2> run(domain, options);
+  double early = 0.0, late = 0.0;
+  while (run.time < 4.5) {
+    run.step(run.flow.stable_step(run.medium));
+    const double angle = std::abs(run.flow.solids().pose(0).turned()[1]);
+    if (run.time < 1.5) early = std::max(early, angle);
+    if (run.time > 3.0) late = std::max(late, angle);
+  }
+  EXPECT_GT(early, 0.06);  // 0.5 rad/s over 2 pi/T with T of 1.2 s is 0.095
+  EXPECT_LT(late, early);
+  EXPECT_GT(late, 0.3 * early);
+}
+
 /// Half a cell above the floor, where water still flows under it: it slides where the force is
 /// more than friction on its weight under water, and comes to rest at the wall.
 TEST(FreeSolids, ABlockOnTheFloorSlidesByTheLawOfCoulomb) {
