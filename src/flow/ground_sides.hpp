@@ -88,9 +88,9 @@ class GroundSides {
   void archive(Archive& a) {
     a.faces("velocity on sides of the ground", through_);
     for (Side& side : sides_) {
-      double all = Archive::loading ? 0.0 : sum_over_ranks(*grid_, side.discharge);
+      double all = sum_over_ranks(*grid_, side.discharge);
       a.number("discharge of side " + side.options.name, all);
-      if (Archive::loading) side.discharge = grid_->rank() == 0 ? all : 0.0;
+      side.discharge = grid_->rank() == 0 ? all : 0.0;
     }
   }
 
