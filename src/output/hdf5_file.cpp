@@ -87,8 +87,9 @@ void divert_to_memory(hid_t file) {
   ::close(memory);
 }
 
-/// What HDF5 may write beside numbers before a file is closed.
-constexpr hsize_t bookkeeping_bytes = 1u << 20;
+/// What HDF5 may still allocate beside numbers before a file is closed; what it has allocated
+/// counts in the size of the file.
+constexpr hsize_t bookkeeping_bytes = 8192;
 
 /// Messages have at most this many bytes, for MPI counts them with an int.
 constexpr std::size_t message_bytes = std::size_t{1} << 26;
