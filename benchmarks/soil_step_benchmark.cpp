@@ -79,14 +79,18 @@ void step(benchmark::State& state) {
   state.counters["stored_bytes"] = doubles * sizeof(double);
 }
 
+// Small enough for a cache of 16 MB, and not.
 constexpr auto milliseconds = benchmark::kMillisecond;
-BENCHMARK((step<3, Ground::elastic, Kernel::quadratic>))->Arg(40)->Unit(milliseconds);
-BENCHMARK((step<3, Ground::mohr_coulomb, Kernel::composite>))->Arg(40)->Unit(milliseconds);
-BENCHMARK((step<3, Ground::saturated, Kernel::composite>))->Arg(40)->Unit(milliseconds);
-BENCHMARK((step<2, Ground::mohr_coulomb, Kernel::composite>))->Arg(256)->Unit(milliseconds);
-BENCHMARK((step<2, Ground::saturated, Kernel::composite>))->Arg(256)->Unit(milliseconds);
-BENCHMARK((step<3, Ground::projected, Kernel::composite>))->Arg(40)->Unit(milliseconds);
-BENCHMARK((step<2, Ground::projected, Kernel::composite>))->Arg(256)->Unit(milliseconds);
+BENCHMARK((step<3, Ground::elastic, Kernel::quadratic>))->Arg(16)->Arg(40)->Unit(milliseconds);
+BENCHMARK((step<3, Ground::mohr_coulomb, Kernel::composite>))->Arg(16)->Arg(40)->Unit(milliseconds);
+BENCHMARK((step<3, Ground::saturated, Kernel::composite>))->Arg(16)->Arg(40)->Unit(milliseconds);
+BENCHMARK((step<2, Ground::mohr_coulomb, Kernel::composite>))
+    ->Arg(80)
+    ->Arg(256)
+    ->Unit(milliseconds);
+BENCHMARK((step<2, Ground::saturated, Kernel::composite>))->Arg(80)->Arg(256)->Unit(milliseconds);
+BENCHMARK((step<3, Ground::projected, Kernel::composite>))->Arg(16)->Arg(40)->Unit(milliseconds);
+BENCHMARK((step<2, Ground::projected, Kernel::composite>))->Arg(80)->Arg(256)->Unit(milliseconds);
 // From 1e4 to 1e7 points.
 BENCHMARK((step<2, Ground::mohr_coulomb, Kernel::composite>))
     ->Name("size")
