@@ -10,24 +10,6 @@
 #include "numerics/loops.hpp"
 
 namespace mudlark {
-namespace {
-
-/// A position in (x, y, z), and whether it lies within the part of a side, whose own axis does not
-/// count.
-template <int D>
-bool within(const FlowSideOptions& options, const Vec<D>& position) {
-  const Point3 place = to_point3(position);
-  for (int axis = 0; axis < D; ++axis) {
-    const auto a = static_cast<std::size_t>(D == 2 && axis == 1 ? 2 : axis);
-    if (axis != options.axis && !(place[a] >= options.from[a] && place[a] < options.to[a]))
-      return false;
-  }
-  return true;
-}
-
-double inwards(const FlowSideOptions& options) { return options.side == 0 ? 1.0 : -1.0; }
-
-}  // namespace
 
 template <int D>
 FlowSides<D>::FlowSides(const Grid<D>& grid, const std::vector<FlowSideOptions>& options,
@@ -49,28 +31,11 @@ FlowSides<D>::FlowSides(const Grid<D>& grid, const std::vector<FlowSideOptions>&
   }
 }
 
-/// Calls body(at, index) for the faces of a side's part on this rank, those in the ghost layers
-/// across its axis included.
+/// Those in the ghost layers across the side's axis included.
 template <int D>
 template <class Body>
 void FlowSides<D>::for_each_face(const Side& side, Body&& body) const {
-  const Grid<D>& grid = *grid_;
-  const int axis = side.options.axis;
-  if (!grid.touches(axis, side.options.side)) return;
-  IndexBox<D> box = grid.local();
-  const IndexBox<D> wall = wall_faces(grid, axis, side.options.side);
-  box.lower[axis] = wall.lower[axis];
-  box.upper[axis] = wall.upper[axis];
-  for_each_place(grid, box, [&](std::ptrdiff_t at, const Index<D>& index) {
-    if (within(side.options, grid.face_centre(axis, index))) body(at, index);
-  });
-}
-
-/// Towards the cells behind the wall: from a face to the cell outside it, and from there on.
-template <int D>
-std::ptrdiff_t FlowSides<D>::outward(const Side& side) const {
-  return side.options.side == 0 ? -grid_->stride(side.options.axis)
-                                : grid_->stride(side.options.axis);
+  for_each_face_of(*grid_, side.options, grid_->local(), body);
 }
 
 template <int D>
@@ -160,7 +125,7 @@ void FlowSides<D>::find_flow(const Side& side, const FaceVector<D>& capacity, do
     }
     const double speed =
         options.flow == SideFlow::discharge ? mean : options.value(to_point3(centre), time);
-    speed_[axis].data()[at] = share > 0.0 ? inwards(options) * speed : 0.0;
+    speed_[axis].data()[at] = share > 0.0 ? options.inwards() * speed : 0.0;
   });
 }
 
@@ -173,7 +138,7 @@ void FlowSides<D>::find_wave(const Side& side, double time) {
   const WaveZoneOptions& wave = options.wave;
   const Grid<D>& grid = *grid_;
   const int axis = options.axis;
-  const double ramp = ramp_share(wave.ramp, time), sign = inwards(options);
+  const double ramp = ramp_share(wave.ramp, time), sign = options.inwards();
   for_each_face(side, [&](std::ptrdiff_t at, const Index<D>& face) {
     const Vec<D> centre = grid.face_centre(axis, face);
     const WavePlace place{0.0, D == 3 ? centre[1 - axis] : 0.0};
@@ -187,7 +152,7 @@ void FlowSides<D>::find_wave(const Side& side, double time) {
     const WaveVelocity comes = side.motion->velocity(place, z, time);
     speed_[axis].data()[at] =
         wave.current + sign * (ramp * comes[0] - std::sqrt(gravity_ / wave.depth) * excess);
-    const std::ptrdiff_t behind = side.options.side == 0 ? at + outward(side) : at;
+    const std::ptrdiff_t behind = side.options.side == 0 ? at + side.options.outward(*grid_) : at;
     const double foot = grid.face_position(D - 1, face[D - 1]) - wave.still_level;
     speed_[D - 1].data()[behind] =
         ramp * side.motion->velocity(place, std::min(foot, eta), time)[2];
@@ -216,7 +181,7 @@ void FlowSides<D>::apply(const CellField<D>& porosity, CellField<D>& water,
                          FaceVector<D>& velocity) const {
   for (const Side& side : sides_) {
     const int axis = side.options.axis;
-    const std::ptrdiff_t out = outward(side);
+    const std::ptrdiff_t out = side.options.outward(*grid_);
     const double* speed = speed_[axis].data();
     double* v = velocity[axis].data();
     const bool given = side.options.flow != SideFlow::level;
@@ -236,8 +201,8 @@ void FlowSides<D>::apply(const CellField<D>& porosity, CellField<D>& water,
 template <int D>
 void FlowSides<D>::bring_motion(const Side& side, FaceVector<D>& velocity) const {
   const int axis = side.options.axis;
-  const std::ptrdiff_t out = outward(side);
-  const double sign = inwards(side.options);
+  const std::ptrdiff_t out = side.options.outward(*grid_);
+  const double sign = side.options.inwards();
   const double* v = velocity[axis].data();
   for (int d = 0; d < D; ++d) {
     if (d == axis) continue;
@@ -258,7 +223,7 @@ void FlowSides<D>::push(const FaceVector<D>& mobility, const CellField<D>& unkno
     if (side.options.flow != SideFlow::level) continue;
     const int axis = side.options.axis;
     const std::ptrdiff_t inside = side.options.side == 0 ? 0 : -grid_->stride(axis);
-    const double sign = inwards(side.options);
+    const double sign = side.options.inwards();
     for_each_face(side, [&](std::ptrdiff_t at, const Index<D>& face) {
       if (unknown.data()[at + inside] == 0.0) return;
       const double gap = 0.5 * grid_->gap(axis, face[axis]);  // as the projection has it

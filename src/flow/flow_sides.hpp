@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/varying.hpp"
+#include "flow/part_of_side.hpp"
 #include "flow/wave_zone.hpp"
 
 namespace mudlark {
@@ -15,18 +16,13 @@ namespace mudlark {
 /// with that level outside an open wall; wave: a known motion, and long waves that come may leave.
 enum class SideFlow { velocity, discharge, level, wave };
 
-/// A side of the domain, or those of its faces whose centres lie between two corners.
-struct FlowSideOptions {
-  std::string name;
-  int axis = 0, side = 0;
-  Point3 from{-infinite, -infinite, -infinite}, to{infinite, infinite, infinite};  ///< [m]
+/// What flowing water does at a part of a side.
+struct FlowSideOptions : PartOfSide {
   SideFlow flow = SideFlow::velocity;
   Varying value;  ///< [m/s]; of a discharge m3/s, in 2D m2/s
   std::optional<Varying>
       level;             ///< of the water that comes in [m]; without: that of the water there
   WaveZoneOptions wave;  ///< of a wave; its outer end is this side
-
-  static constexpr double infinite = std::numeric_limits<double>::infinity();
 };
 
 /// Velocities that walls have are put into closed walls: the pressure solve sees them as it sees
@@ -67,7 +63,6 @@ class FlowSides {
   double level_at(const Side& side, const Index<D>& face, double time) const;
   void bring_motion(const Side& side, FaceVector<D>& velocity) const;
   double share_below(const Index<D>& face, double level) const;
-  std::ptrdiff_t outward(const Side& side) const;
 
   const Grid<D>* grid_;
   double gravity_, density_;

@@ -350,7 +350,8 @@ void FlowSolver<D>::advance(const PorousMedium<D>& medium, double dt, MovingGrai
                     {dt, -options_.density * grid_->gravity()[D - 1], grains->filling,
                      grains->resistance, carried_},
                     water_);
-  outflow_ -= sum_over_ranks(*grid_, rain_.fall(medium.drains, porosity_, time_, dt, water_));
+  if (!rain_.empty())
+    outflow_ -= sum_over_ranks(*grid_, rain_.fall(medium.drains, porosity_, time_, dt, water_));
   update_derived(&medium);
   find_sides(time_ + dt, &medium);
   find_unknowns();

@@ -13,17 +13,6 @@ namespace {
 /// What heads mean in a case without gravity [m/s2].
 constexpr double standard_gravity = 9.81;
 
-template <int D>
-bool within(const GroundSideOptions& options, const Vec<D>& position) {
-  const Point3 place = to_point3(position);
-  for (int axis = 0; axis < D; ++axis) {
-    const auto a = static_cast<std::size_t>(D == 2 && axis == 1 ? 2 : axis);
-    if (axis != options.axis && !(place[a] >= options.from[a] && place[a] < options.to[a]))
-      return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 template <int D>
@@ -41,31 +30,17 @@ GroundSides<D>::GroundSides(const Grid<D>& grid, const std::vector<GroundSideOpt
   for (const GroundSideOptions& one : options) sides_.push_back({one});
 }
 
-/// Calls body(at, index) for the faces of a side's part on this rank, those of the ghost layers
-/// across its axis included unless only `owned` ones are asked for.
+/// Those of the ghost layers across the side's axis included, unless only `owned` ones are asked
+/// for.
 template <int D>
 template <class Body>
 void GroundSides<D>::for_each_face(const Side& side, bool owned, Body&& body) const {
-  const Grid<D>& grid = *grid_;
-  const int axis = side.options.axis;
-  if (!grid.touches(axis, side.options.side)) return;
-  IndexBox<D> box = owned ? grid.owned() : grid.local();
-  const IndexBox<D> wall = wall_faces(grid, axis, side.options.side);
-  box.lower[axis] = wall.lower[axis];
-  box.upper[axis] = wall.upper[axis];
-  for_each_place(grid, box, [&](std::ptrdiff_t at, const Index<D>& index) {
-    if (within(side.options, grid.face_centre(axis, index))) body(at, index);
-  });
+  for_each_face_of(*grid_, side.options, owned ? grid_->owned() : grid_->local(), body);
 }
 
 template <int D>
 std::ptrdiff_t GroundSides<D>::inside(const Side& side) const {
   return side.options.side == 0 ? 0 : -grid_->stride(side.options.axis);
-}
-template <int D>
-std::ptrdiff_t GroundSides<D>::outward(const Side& side) const {
-  return side.options.side == 0 ? -grid_->stride(side.options.axis)
-                                : grid_->stride(side.options.axis);
 }
 template <int D>
 double GroundSides<D>::gap(const Side& side) const {
@@ -81,7 +56,7 @@ void GroundSides<D>::find(const CellField<D>& ground, const CellField<D>& pressu
     const int axis = side.options.axis;
     const GroundSideWater kind = side.options.water;
     const std::ptrdiff_t in = inside(side);
-    const double weight = -inwards(side) * density_ * grid_->gravity()[axis] * gap(side);
+    const double weight = -side.options.inwards() * density_ * grid_->gravity()[axis] * gap(side);
     for_each_face(side, false, [&](std::ptrdiff_t at, const Index<D>& face) {
       const Vec<D> centre = grid_->face_centre(axis, face);
       double value =
@@ -105,7 +80,7 @@ void GroundSides<D>::find(const CellField<D>& ground, const CellField<D>& pressu
       const double open = capacity[axis].data()[at];
       // Nothing is drawn out of pores that are not full.
       const bool there = value > 0.0 || pressure.data()[at + in] != 0.0;
-      v = holds && open > 0.0 && there ? inwards(side) * value / open : 0.0;
+      v = holds && open > 0.0 && there ? side.options.inwards() * value / open : 0.0;
     });
   }
   halo_.exchange(through_);
@@ -135,7 +110,7 @@ void GroundSides<D>::apply(const CellField<D>& porosity, CellField<D>& water,
                            FaceVector<D>& velocity) const {
   for (const Side& side : sides_) {
     const int axis = side.options.axis;
-    const std::ptrdiff_t out = outward(side);
+    const std::ptrdiff_t out = side.options.outward(*grid_);
     const double *through = through_[axis].data(), *share = inflow_[axis].data();
     double* v = velocity[axis].data();
     for_each_face(side, false, [&](std::ptrdiff_t at, const Index<D>&) {
@@ -162,7 +137,8 @@ void GroundSides<D>::move(const WaterAtSides<D>& at_sides) const {
   for (const Side& side : sides_) {
     const int axis = side.options.axis;
     const std::ptrdiff_t in = inside(side);
-    const double dt = at_sides.dt, sign = inwards(side), fall = dt * grid_->gravity()[axis];
+    const double dt = at_sides.dt, sign = side.options.inwards(),
+                 fall = dt * grid_->gravity()[axis];
     for_each_face(side, true, [&](std::ptrdiff_t at, const Index<D>&) {
       double &v = at_sides.velocity[axis].data()[at], &m = at_sides.mobility[axis].data()[at];
       at_sides.grain_velocity[axis].data()[at] = at_sides.grain_mobility[axis].data()[at] = 0.0;
@@ -212,7 +188,7 @@ void GroundSides<D>::push(const FaceVector<D>& mobility, const CellField<D>& unk
   for (const Side& side : sides_) {
     const int axis = side.options.axis;
     const std::ptrdiff_t in = inside(side);
-    const double per_gap = inwards(side) / gap(side);
+    const double per_gap = side.options.inwards() / gap(side);
     for_each_face(side, true, [&](std::ptrdiff_t at, const Index<D>&) {
       if (unknown.data()[at + in] == 0.0 || passes_[axis].data()[at] == 0.0) return;
       velocity[axis].data()[at] += mobility[axis].data()[at] * pressure_[axis].data()[at] * per_gap;
@@ -237,7 +213,7 @@ void GroundSides<D>::count(const FaceVector<D>& carried, double dt) {
     for_each_face(side, true, [&](std::ptrdiff_t at, const Index<D>&) {
       in += carried[side.options.axis].data()[at];
     });
-    side.discharge = -inwards(side) * in * grid_->cell_volume() / dt;
+    side.discharge = -side.options.inwards() * in * grid_->cell_volume() / dt;
   }
 }
 

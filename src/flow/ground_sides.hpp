@@ -7,6 +7,7 @@
 
 #include "base/pore_filling.hpp"
 #include "base/varying.hpp"
+#include "flow/part_of_side.hpp"
 #include "grid/halo.hpp"
 
 namespace mudlark {
@@ -16,15 +17,10 @@ namespace mudlark {
 /// inflow: a flux into the ground.
 enum class GroundSideWater { pressure, head, seepage_face, inflow };
 
-/// A side of the domain, or those of its faces whose centres lie between two corners.
-struct GroundSideOptions {
-  std::string name;
-  int axis = 0, side = 0;
-  Point3 from{-infinite, -infinite, -infinite}, to{infinite, infinite, infinite};  ///< [m]
+/// What the water of the ground does at a part of a side.
+struct GroundSideOptions : PartOfSide {
   GroundSideWater water = GroundSideWater::seepage_face;
   Varying value;  ///< pressure [Pa], level [m], or flux into the ground [m/s]
-
-  static constexpr double infinite = std::numeric_limits<double>::infinity();
 };
 
 /// What water and grains bring to a step at the faces of sides, and what becomes of the water's
@@ -102,10 +98,8 @@ class GroundSides {
   template <class Body>
   void for_each_face(const Side& side, bool owned, Body&& body) const;
   void fill_rows_behind_sides();
-  double inwards(const Side& side) const { return side.options.side == 0 ? 1.0 : -1.0; }
-  /// From a face to the cell in the domain beside it, and to the next face outside.
+  /// From a face to the cell in the domain beside it.
   std::ptrdiff_t inside(const Side& side) const;
-  std::ptrdiff_t outward(const Side& side) const;
   double gap(const Side& side) const;  ///< between the side and the first cell centre [m]
 
   const Grid<D>* grid_;

@@ -28,7 +28,6 @@ void fall_to_surface(const Grid<D>& grid, const PorousMedium<D>& medium,
     const double held = std::min(w, medium.residual.data()[at] * medium.space.volume.data()[at]);
     return Free{w - held, porosity.data()[at] - held};
   };
-  CellField<D> change(grid, "water that arrives", "1");
   for_each_place(grid, bounding_faces(grid, up), [&](std::ptrdiff_t at, const Index<D>& face) {
     if (face[up] == 0 || face[up] == grid.cells()[up]) return;
     if (drains[at] == 0.0 || drains[at - s] == 0.0 || resistance[at] <= 0.0) return;
@@ -39,11 +38,10 @@ void fall_to_surface(const Grid<D>& grid, const PorousMedium<D>& medium,
     const double falls = step.weight * k / resistance[at] * step.dt / grid.spacing()[up];
     const double lacks = std::max(falls - std::max(-carried[at], 0.0), 0.0);
     const double amount = std::min({lacks, above.water, std::max(below.room - below.water, 0.0)});
-    change.data()[at] -= amount;
-    change.data()[at - s] += amount;
+    // No cell both gives and takes, so each is changed once.
+    water.data()[at] -= amount;
+    water.data()[at - s] += amount;
   });
-  for_each_offset(grid, grid.owned(),
-                  [&](std::ptrdiff_t at) { water.data()[at] += change.data()[at]; });
 }
 
 template void fall_to_surface(const Grid<2>&, const PorousMedium<2>&, const CellField<2>&,

@@ -44,10 +44,12 @@ double Rain<D>::fall(const CellField<D>& ground, const CellField<D>& porosity, d
   if (empty()) return 0.0;
   const Grid<D>& grid = *grid_;
   std::fill(amounts_.begin(), amounts_.end(), 0.0);
-  IndexBox<D> floor = grid.global();
-  floor.upper[D - 1] = 1;
+  IndexBox<D> floor = grid.owned();  // the columns of this rank
+  if (!floor.empty()) floor.upper[D - 1] = floor.lower[D - 1] + 1;
   for_each(floor, [&](const Index<D>& cell) {
-    const Point3 place = to_point3(grid.cell_centre(cell));
+    Index<D> foot = cell;  // the same place whatever part of the column is this rank's
+    foot[D - 1] = 0;
+    const Point3 place = to_point3(grid.cell_centre(foot));
     double area = 1.0;  // of mean cells
     for (int a = 0; a < D - 1; ++a) area *= grid.width(a, cell[a]) / grid.spacing()[a];
     for (const RainOptions& rain : rains_) {

@@ -115,7 +115,7 @@ class CellGather {
   }
 
  private:
-  /// Splines of a part, which the components share.
+  /// Splines of a batch, which the components share.
   struct Splines {
     using Face = GatherSpline<Value, 4>;
     using Centre = GatherSpline<Value, 3>;
