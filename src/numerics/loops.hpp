@@ -8,13 +8,14 @@
 namespace mudlark {
 
 /// Calls body(at) with the position `at` in the local arrays for every index of the box; a
-/// neighbour along an axis lies at `at + grid.stride(axis)`.
-template <int D, class Body>
-inline void for_each_offset(const Grid<D>& grid, const IndexBox<D>& box, Body&& body) {
+/// neighbour along an axis lies at `at + layout.stride(axis)`. The layout is a grid's, or any other
+/// with the first axis fastest.
+template <class Layout, int D, class Body>
+inline void for_each_offset(const Layout& layout, const IndexBox<D>& box, Body&& body) {
   if (box.empty()) return;
   const std::ptrdiff_t count = box.upper[0] - box.lower[0];
   const auto row = [&](const Index<D>& first) {
-    const std::ptrdiff_t start = grid.offset(first);
+    const std::ptrdiff_t start = layout.offset(first);
     for (std::ptrdiff_t at = start; at < start + count; ++at) body(at);
   };
   if constexpr (D == 2) {

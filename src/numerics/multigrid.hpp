@@ -1,8 +1,11 @@
 #pragma once
-/// One cycle of hypre's structured multigrid (PFMG) as preconditioner for the pressure system.
-/// Ashby & Falgout (1996), Nucl. Sci. Eng. 124; Falgout & Jones (2000).
+/// One multigrid cycle as preconditioner for the pressure system: our own levels while there is
+/// work, on cells with an unknown only; hypre's PFMG where little is left.
 #include <memory>
+#include <vector>
 
+#include "numerics/multigrid_level.hpp"
+#include "numerics/pfmg.hpp"
 #include "numerics/pressure_system.hpp"
 
 namespace mudlark {
@@ -11,25 +14,23 @@ template <int D>
 class Multigrid {
  public:
   explicit Multigrid(const Grid<D>& grid);
-  ~Multigrid();
-  Multigrid(const Multigrid&) = delete;
-  Multigrid& operator=(const Multigrid&) = delete;
 
-  /// Works on these owned cells only, which may be none on some ranks; at first on all. Collective.
-  void cover(const IndexBox<D>& box);
-  /// Builds the hierarchy for a new matrix. Couplings across a periodic seam are left out of the
-  /// preconditioner (PFMG wants powers of two there); the diagonal keeps them, so it stays positive
-  /// definite.
-  void build(const PressureSystem<D>& system);
-  /// out = M^-1 residual on the covered cells.
+  /// Builds the hierarchy for a new matrix whose unknowns lie in `box` (of this rank's cells).
+  /// Couplings across a periodic seam are left out of the preconditioner unless the cells halve
+  /// evenly down to one; the diagonal keeps them, so it stays positive definite. Collective.
+  void build(const PressureSystem<D>& system, const IndexBox<D>& box);
+  /// out = M^-1 residual on the cells that had an unknown when it was built. Collective.
   void apply(const CellField<D>& residual, CellField<D>& out);
 
  private:
-  struct Hypre;  // keeps hypre's headers (and macros) out of everybody else's sight
+  void fill_finest(const PressureSystem<D>& system, const IndexBox<D>& box);
+  void coarsen(std::size_t from, int axis);
+  void cycle(std::size_t level);
+
   const Grid<D>* grid_;
-  IndexBox<D> box_;
-  std::unique_ptr<Hypre> hypre_;
-  std::vector<double> buffer_;
+  std::vector<MultigridLevel<D>> levels_;  ///< finest first
+  std::vector<int> axes_;                  ///< along which each level was halved
+  std::unique_ptr<Pfmg<D>> coarsest_;      ///< for the last level
 };
 
 extern template class Multigrid<2>;

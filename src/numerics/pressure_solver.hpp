@@ -1,5 +1,7 @@
 #pragma once
 /// Conjugate gradients for the pressure, preconditioned by structured multigrid.
+#include <array>
+
 #include "numerics/multigrid.hpp"
 #include "numerics/pressure_system.hpp"
 
@@ -20,10 +22,9 @@ class PressureSolver {
  public:
   explicit PressureSolver(const Grid<D>& grid);
 
-  /// Restricts the work to these owned cells, which may be none on some ranks; at first all.
-  /// Couplings that lead out of all ranks' boxes must be zero, and p as well out there.
-  /// Cheap when nothing changes. Collective.
-  void cover(const IndexBox<D>& box);
+  /// Looks for unknowns among these owned cells only, which may be none on some ranks; at first
+  /// among all. What a system says of others is not read.
+  void cover(const IndexBox<D>& box) { box_ = box; }
 
   /// Solves A p = right side from the present p (warm start), until the largest residual is below
   /// `tolerance` [1/s]; one cycle at least, unless the start is a million times better. With
@@ -31,28 +32,30 @@ class PressureSolver {
   /// change its volume) and p keeps its mean. Falls back to diagonal scaling where multigrid
   /// stalls; the caller decides what a report without convergence means. Leaves the ghosts of p
   /// valid. A kept hierarchy saves its construction, costs more iterations the more the matrix
-  /// changes, and is built anew where it does not lead to the tolerance.
+  /// changes, and is built anew where it does not lead to the tolerance. Cells without an unknown
+  /// cost next to nothing.
   SolveReport solve(PressureSystem<D>& system, CellField<D>& p, double tolerance,
                     Hierarchy hierarchy = Hierarchy::fresh);
 
   /// Largest right side of all ranks, its mean taken out where pressure is free by a constant
   /// [1/s].
-  double largest_right_side(PressureSystem<D>& system) const {
-    if (system.constant_free) remove_mean(system, system.right_side);
-    return largest(system.right_side);
-  }
+  double largest_right_side(PressureSystem<D>& system);
 
  private:
   bool iterate(const PressureSystem<D>& system, CellField<D>& p, double tolerance, int limit,
                bool multigrid, SolveReport& report);
   void find_residual(const PressureSystem<D>& system, CellField<D>& p);
   void precondition(const PressureSystem<D>& system, bool multigrid);
-  void remove_mean(const PressureSystem<D>& system, CellField<D>& field) const;
-  double dot_product(const CellField<D>& left, const CellField<D>& right) const;
+  void find_unknowns(const PressureSystem<D>& system);
+  void remove_mean(CellField<D>& field) const;
+  /// Products of one field with two others, over all ranks.
+  std::array<double, 2> dot_products(const CellField<D>& one, const CellField<D>& first,
+                                     const CellField<D>& second) const;
   double largest(const CellField<D>& field) const;
 
   const Grid<D>* grid_;
   IndexBox<D> box_;
+  Spans unknowns_;
   Ghosts<D> ghosts_;
   Multigrid<D> multigrid_;
   bool built_ = false;  ///< is there a hierarchy?

@@ -21,9 +21,4 @@ struct PressureSystem {
       false;  ///< no Dirichlet and no storage term anywhere: p is known up to a constant
 };
 
-/// out = A p on the cells of `box`; `p` needs valid ghosts.
-template <int D>
-void apply(const Grid<D>& grid, const IndexBox<D>& box, const PressureSystem<D>& system,
-           const CellField<D>& p, CellField<D>& out);
-
 }  // namespace mudlark
