@@ -31,7 +31,7 @@ double FlowSolver<D>::courant_rate() const {
   const double* w = free_water().data();
   const double* theta = free_room().data();
   double fastest = 0.0;
-  for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) {
+  for_each_offset(near_, grid.owned(), [&](std::ptrdiff_t at) {
     const bool all = gas_ || InterfaceAdvection<D>::dilates(w[at], theta[at]);
     const bool wet = gas_ || w[at] > nothing;
     double in = 0.0, out = 0.0;

@@ -31,12 +31,13 @@ FlowSolver<D>::FlowSolver(const Grid<D>& grid, const FlowOptions& options)
     : grid_(&grid),
       options_(options),
       ghosts_(grid),
-      interface_(grid),
-      momentum_(grid),
-      predictor_(grid, options),
+      near_(grid),
+      interface_(grid, near_),
+      momentum_(grid, near_),
+      predictor_(grid, near_, options),
       drained_(grid, options),
-      projection_(grid, options),
-      extension_(grid),
+      projection_(grid, near_, options),
+      extension_(grid, near_),
       waves_(grid, options.waves),
       sides_(grid, options.sides, options.density),
       sources_(grid, options.wave_sources),
@@ -59,6 +60,7 @@ FlowSolver<D>::FlowSolver(const Grid<D>& grid, const FlowOptions& options)
       mobility_(grid, "mobility", "m2 s/kg"),
       wall_friction_(grid, "wall friction", "Pa s/m2"),
       body_friction_(grid, "body friction", "Pa s/m2") {
+  everywhere_ = options.gas.has_value();
   if (options.gas) gas_.emplace(grid, options);
   if (options.turbulence.model != TurbulenceModel::none) turbulence_.emplace(grid, options);
   if (!options.ground_sides.empty())
@@ -153,6 +155,7 @@ void FlowSolver<D>::initialise(const PorousMedium<D>& medium) {
   fill_with_bodies(medium);
   update_derived(&medium);
   find_sides(0.0, &medium);
+  find_near();
   initial_volume_ = ledger().present;
   outflow_ = time_ = 0.0;
   step_ = 0;
@@ -160,6 +163,14 @@ void FlowSolver<D>::initialise(const PorousMedium<D>& medium) {
   project_start(medium);
   hold_sides();
   if (turbulence_) turbulence_->find(medium, saturation_, velocity_);
+}
+
+template <int D>
+void FlowSolver<D>::find_near() {
+  if (everywhere_)
+    near_.take_all();
+  else
+    near_.find(water_, porosity_, velocity_);
 }
 
 /// Where pressure acts, for the present water: in the water up to its surface, or everywhere.
@@ -227,6 +238,7 @@ void FlowSolver<D>::project_start(const PorousMedium<D>& medium) {
   target_.fill(0.0);
   last_solve_ =
       projection_.project(capacity_, mobility_, target_, no_storage_, pressure_, flux_, round_off);
+  flux_.fill(0.0);
 }
 
 template <int D>
@@ -235,7 +247,7 @@ void FlowSolver<D>::find_flux() {
     const double* theta = capacity_[a].data();
     const double* v = velocity_[a].data();
     double* u = flux_[a].data();
-    for_each_offset(*grid_, bounding_faces(*grid_, a),
+    for_each_offset(near_, bounding_faces(*grid_, a),
                     [&](std::ptrdiff_t at) { u[at] = theta[at] * v[at]; });
   }
 }
@@ -251,7 +263,7 @@ void FlowSolver<D>::find_target(const PorousMedium<D>& medium, double dt, double
   const double* stored = storage_ ? storage_->stored().data() : nullptr;
   double* target = target_.data();
   const double beside_bodies = solids_.moving() ? slow_feedback(grid) : HUGE_VAL;
-  for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) {
+  for_each_offset(near_, grid.owned(), [&](std::ptrdiff_t at) {
     const double given = volume[at] * porosity[at] + (stored ? stored[at] : 0.0);
     // Cells that close faster than that keep some room: without any they would dictate the step.
     const double slowest = theta[at] < 0.5 * given ? HUGE_VAL : most;
@@ -266,7 +278,7 @@ void FlowSolver<D>::find_target(const PorousMedium<D>& medium, double dt, double
     const std::ptrdiff_t s = grid.stride(a);
     const double inverse = 1.0 / grid.spacing()[a];
     const double* grains = medium.grain_flux[a].data();
-    for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) {
+    for_each_offset(near_, grid.owned(), [&](std::ptrdiff_t at) {
       target[at] -= (grains[at + s] - grains[at]) * inverse;
     });
   }
@@ -343,6 +355,10 @@ void FlowSolver<D>::transport(const PorousMedium<D>& medium, double dt,
 template <int D>
 void FlowSolver<D>::advance(const PorousMedium<D>& medium, double dt, MovingGrains<D>* grains) {
   check_step(dt);
+  if (grains && !everywhere_) {
+    everywhere_ = true;
+    near_.take_all();
+  }
   transport(medium, dt, grains ? &grains->velocity : nullptr);
   if (!waves_.empty()) make_waves(dt);
   if (grains)
@@ -354,6 +370,7 @@ void FlowSolver<D>::advance(const PorousMedium<D>& medium, double dt, MovingGrai
     outflow_ -= sum_over_ranks(*grid_, rain_.fall(medium.drains, porosity_, time_, dt, water_));
   update_derived(&medium);
   find_sides(time_ + dt, &medium);
+  find_near();
   find_unknowns();
   if (options_.wall_law != WallLaw::resolved)
     find_wall_friction(*grid_, options_, saturation_, velocity_, wall_friction_);

@@ -47,6 +47,8 @@ template <int D>
 class FlowSolver {
  public:
   FlowSolver(const Grid<D>& grid, const FlowOptions& options);
+  FlowSolver(const FlowSolver&) = delete;  // its parts point at one another
+  FlowSolver& operator=(const FlowSolver&) = delete;
 
   /// Water W = theta * share of the cell inside the bodies (exact for boxes), their velocity made
   /// free of divergence, and the pressure that holds the water at rest.
@@ -151,6 +153,7 @@ class FlowSolver {
     if (ground_sides_) ground_sides_->archive(a);
     update_derived();
     find_sides(time_);
+    find_near();
   }
 
  private:
@@ -167,6 +170,7 @@ class FlowSolver {
   void find_sides(double time, const PorousMedium<D>* medium = nullptr);
   void hold_sides();
   void project_start(const PorousMedium<D>& medium);
+  void find_near();
   void find_unknowns();
   /// What moves as water with a sharp surface, and its room.
   const CellField<D>& free_water() const { return residual_ ? residual_->free() : water_; }
@@ -183,6 +187,7 @@ class FlowSolver {
   const Grid<D>* grid_;
   FlowOptions options_;
   Ghosts<D> ghosts_;
+  NearWater<D> near_;  ///< where the parts below look for something to do
   InterfaceAdvection<D> interface_;
   MomentumTransport<D> momentum_;
   Predictor<D> predictor_;
@@ -209,6 +214,7 @@ class FlowSolver {
   FaceVector<D> flux_, carried_, mobility_, wall_friction_, body_friction_;
   double initial_volume_ = 0.0, outflow_ = 0.0, time_ = 0.0;
   std::int64_t step_ = 0;
+  bool everywhere_ = false;  ///< gas, or grains that share the pressure: nothing is far from it
   SolveReport last_solve_;
 };
 

@@ -8,8 +8,9 @@
 namespace mudlark {
 
 template <int D>
-Predictor<D>::Predictor(const Grid<D>& grid, const FlowOptions& options)
+Predictor<D>::Predictor(const Grid<D>& grid, const NearWater<D>& near, const FlowOptions& options)
     : grid_(&grid),
+      near_(&near),
       density_(options.density),
       viscosity_(options.viscosity),
       gas_density_(options.gas ? options.gas->density : 0.0),
@@ -40,7 +41,7 @@ void Predictor<D>::find_viscous_acceleration(int component, const double* porosi
   const double nu = viscosity_ / density_;
   const std::ptrdiff_t sa = grid.stride(component);
   for_each_place(
-      grid, bounding_faces(grid, component), [&](std::ptrdiff_t at, const Index<D>& face) {
+      *near_, bounding_faces(grid, component), [&](std::ptrdiff_t at, const Index<D>& face) {
         double sum = 0.0;
         for (int axis = 0; axis < D; ++axis) {
           const std::ptrdiff_t s = grid.stride(axis);
@@ -124,7 +125,7 @@ void Predictor<D>::find_forces(const PorousMedium<D>& medium, const CellField<D>
       viscous_.find(a, mixture ? mixture->viscosity : water_viscosity_, eddy,
                     mixture ? Mean::harmonic : Mean::arithmetic, porosity, velocity,
                     acceleration_[a]);
-      for_each_offset(grid, bounding_faces(grid, a),
+      for_each_offset(*near_, bounding_faces(grid, a),
                       [&](std::ptrdiff_t at) { viscous[at] /= mixture ? rho[at] : density_; });
     } else {
       find_viscous_acceleration(a, porosity.data(), velocity[a].data(), viscous);
@@ -134,7 +135,7 @@ void Predictor<D>::find_forces(const PorousMedium<D>& medium, const CellField<D>
     const double* linear = medium.linear_drag[a].data();
     const double* quadratic = medium.quadratic_drag[a].data();
     double* r = resistance[a].data();
-    for_each_offset(grid, bounding_faces(grid, a), [&](std::ptrdiff_t at) {
+    for_each_offset(*near_, bounding_faces(grid, a), [&](std::ptrdiff_t at) {
       const double open = aperture[at] > 0.0 ? theta[at] / aperture[at] : 1.0;  // n_f
       const double wet = mixture ? water_share(rho[at]) : 1.0;
       double loss = linear[at];
@@ -174,7 +175,7 @@ void Predictor<D>::advance(const PorousMedium<D>& medium, const CellField<D>& po
     double* v = velocity[a].data();
     double* m = mobility[a].data();
     const auto push = [&](const auto& fluid) {
-      for_each_offset(grid, bounding_faces(grid, a), [&](std::ptrdiff_t at) {
+      for_each_offset(*near_, bounding_faces(grid, a), [&](std::ptrdiff_t at) {
         const double resistance = m[at], rho = fluid.density(at);
         const double inertia = added[at] * fluid.share(at);
         m[at] = dt / (rho + inertia + dt * (resistance + friction[at]));

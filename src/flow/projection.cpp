@@ -34,8 +34,9 @@ double crossing(const Plane<D>& plane, int axis) {
 }  // namespace
 
 template <int D>
-Projection<D>::Projection(const Grid<D>& grid, const FlowOptions& options)
+Projection<D>::Projection(const Grid<D>& grid, const NearWater<D>& near, const FlowOptions& options)
     : grid_(&grid),
+      near_(&near),
       density_(options.density),
       ghosts_(grid),
       unknown_(grid, "pressure unknown", "1"),
@@ -97,14 +98,14 @@ void Projection<D>::find_surface(const CellField<D>& water, const CellField<D>& 
   const double* w = water.data();
   const double* theta = porosity.data();
   double* unknown = unknown_.data();
-  for_each_offset(grid, grid.local(), [&](std::ptrdiff_t at) {
+  for_each_offset(*near_, grid.local(), [&](std::ptrdiff_t at) {
     unknown[at] = InterfaceAdvection<D>::dilates(w[at], theta[at]) ? 1.0 : 0.0;
   });
   for (int axis = 0; axis < D; ++axis) {
     const std::ptrdiff_t s = grid.stride(axis);
     double* distance_here = distance_[axis].data();
     const double* open = capacity[axis].data();
-    for_each_offset(grid, bounding_faces(grid, axis), [&](std::ptrdiff_t at) {
+    for_each_offset(*near_, bounding_faces(grid, axis), [&](std::ptrdiff_t at) {
       if (open[at] == 0.0) {
         distance_here[at] = 0.0;
         return;
@@ -192,12 +193,12 @@ bool Projection<D>::assemble_faces(const FaceVector<D>& capacity, const FaceVect
     const auto conductance = [&](std::ptrdiff_t at) {
       return reach[at] > 0.0 ? theta[at] * m[at] * inverse * inverse / reach[at] : 0.0;
     };
-    for_each_offset(grid, bounding_faces(grid, axis), [&](std::ptrdiff_t at) {
+    for_each_offset(*near_, bounding_faces(grid, axis), [&](std::ptrdiff_t at) {
       const bool joined = unknown[at] > 0.0 && unknown[at - s] > 0.0 && reach[at] > 0.0;
       coupling[at] = joined ? conductance(at) : 0.0;
       given = given || (reach[at] > 0.0 && !joined);
     });
-    for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) {
+    for_each_offset(*near_, grid.owned(), [&](std::ptrdiff_t at) {
       if (unknown[at] == 0.0) return;
       diagonal[at] += conductance(at) + conductance(at + s);
       right[at] -= (theta[at + s] * v[at + s] - theta[at] * v[at]) * inverse;
@@ -218,25 +219,28 @@ SolveReport Projection<D>::project(const FaceVector<D>& capacity, const FaceVect
   const Grid<D>& grid = *grid_;
   const double* unknown = unknown_.data();
   double* p = pressure.data();
-  for_each_offset(grid, grid.local(), [&](std::ptrdiff_t at) {
+  for_each_offset(*near_, grid.local(), [&](std::ptrdiff_t at) {
     if (unknown[at] == 0.0) p[at] = 0.0;  // atmosphere
   });
   ghosts_.update(pressure);
   push(mobility, pressure, velocity);
-  risen_.fill(0.0);
+  const auto clear = [&](CellField<D>& field) {
+    for_each_offset(*near_, grid.local(), [&](std::ptrdiff_t at) { field.data()[at] = 0.0; });
+  };
+  clear(risen_);
   SolveReport report;
   for (int pass = 0; pass < most_passes && !report.converged; ++pass) {
     const double left = assemble(capacity, mobility, target, give_way, velocity);
     report.residual = left;
     report.converged = left <= (pass == 0 ? good_start * tolerance : tolerance);
     if (report.converged || !std::isfinite(left)) break;
-    rise_.fill(0.0);
+    clear(rise_);
     const SolveReport pass_report =
         solver_.solve(system_, rise_, std::max(0.1 * tolerance, pass_reduction * left));
     report.iterations += pass_report.iterations;
     push(mobility, rise_, velocity);
     const double* rise = rise_.data();
-    for_each_offset(grid, grid.local(), [&](std::ptrdiff_t at) {
+    for_each_offset(*near_, grid.local(), [&](std::ptrdiff_t at) {
       p[at] += rise[at];
       risen_.data()[at] += rise[at];
     });
@@ -264,7 +268,7 @@ double Projection<D>::assemble(const FaceVector<D>& capacity, const FaceVector<D
   const Grid<D>& grid = *grid_;
   const double* unknown = unknown_.data();
   bool storage = false;
-  for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) {
+  for_each_offset(*near_, grid.owned(), [&](std::ptrdiff_t at) {
     const double yielding = unknown[at] > 0.0 ? give_way.data()[at] : 0.0;
     storage = storage || yielding > 0.0;
     system_.diagonal.data()[at] = yielding;
@@ -328,7 +332,7 @@ void Projection<D>::push(const FaceVector<D>& mobility, const CellField<D>& pres
     const double* m = mobility[axis].data();
     const double* reach = distance_[axis].data();
     double* v = velocity[axis].data();
-    for_each_offset(grid, bounding_faces(grid, axis), [&](std::ptrdiff_t at) {
+    for_each_offset(*near_, bounding_faces(grid, axis), [&](std::ptrdiff_t at) {
       if (reach[at] == 0.0) return;
       const double above = unknown[at] > 0.0 ? p[at] : 0.0,
                    below = unknown[at - s] > 0.0 ? p[at - s] : 0.0;
@@ -355,7 +359,7 @@ void Projection<D>::for_each_meniscus(int axis, IndexBox<D> faces, const CellFie
       else
         faces.upper[axis] = grid.cells()[axis];
     }
-  for_each_offset(grid, faces, [&](std::ptrdiff_t at) {
+  for_each_offset(*near_, faces, [&](std::ptrdiff_t at) {
     const bool above = unknown[at] > 0.0, below = unknown[at - s] > 0.0;
     if (reach[at] == 0.0 || above == below) return;
     const std::ptrdiff_t wet = above ? at : at - s, dry = above ? at - s : at;

@@ -10,7 +10,7 @@ namespace mudlark {
 template <int D>
 class Projection {
  public:
-  Projection(const Grid<D>& grid, const FlowOptions& options);
+  Projection(const Grid<D>& grid, const NearWater<D>& near, const FlowOptions& options);
 
   /// Finds the cells with a pressure unknown (alpha >= 1/2) and, for each of their faces, the
   /// distance over which the pressure falls, in mean cells: that of the centres between two
@@ -66,6 +66,7 @@ class Projection {
   void fix_constant(CellField<D>& pressure);
 
   const Grid<D>* grid_;
+  const NearWater<D>* near_;
   double density_;
   Ghosts<D> ghosts_;
   CellField<D> unknown_;

@@ -13,8 +13,9 @@ constexpr double sharp = 1e-12;
 }  // namespace
 
 template <int D>
-InterfaceAdvection<D>::InterfaceAdvection(const Grid<D>& grid)
+InterfaceAdvection<D>::InterfaceAdvection(const Grid<D>& grid, const NearWater<D>& near)
     : grid_(&grid),
+      near_(&near),
       ghosts_(grid),
       alpha_(grid, "saturation", "1"),
       dilates_(grid, "dilates", "1"),
@@ -57,7 +58,7 @@ void InterfaceAdvection<D>::sweep(CellField<D>& water, const CellField<D>& poros
   const double* w = water.data();
   const double* theta = porosity.data();
   double* c = dilates_.data();
-  for_each_offset(*grid_, grid_->owned(),
+  for_each_offset(*near_, grid_->owned(),
                   [&](std::ptrdiff_t at) { c[at] = dilates(w[at], theta[at]) ? 1.0 : 0.0; });
   if (spray == Spray::mixed) find_spray(water, porosity);
   for (const int axis : axes_in_order<D>(order))
@@ -72,7 +73,7 @@ void InterfaceAdvection<D>::sweep_axis(CellField<D>& water, const CellField<D>& 
   const double* w = water.data();
   const double* theta = porosity.data();
   double* alpha = alpha_.data();
-  for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) {
+  for_each_offset(*near_, grid.owned(), [&](std::ptrdiff_t at) {
     alpha[at] = theta[at] > 0.0 ? w[at] / theta[at] : 0.0;
   });
   ghosts_.update(alpha_);
@@ -83,7 +84,7 @@ void InterfaceAdvection<D>::sweep_axis(CellField<D>& water, const CellField<D>& 
   const double courant = dt / grid.spacing()[axis];
   const double* u = flux.data();
   double* through = water_flux_[axis].data();
-  for_each_offset(grid, bounding_faces(grid, axis), [&](std::ptrdiff_t at) {
+  for_each_offset(*near_, bounding_faces(grid, axis), [&](std::ptrdiff_t at) {
     const std::ptrdiff_t donor = u[at] > 0.0 ? at - s : at;
     through[at] = u[at] == 0.0 ? 0.0 : water_through(u[at] * courant, donor, axis, theta[donor]);
   });
@@ -99,7 +100,7 @@ void InterfaceAdvection<D>::sweep_axis(CellField<D>& water, const CellField<D>& 
   }
   double* out = water.data();
   const double* c = dilates_.data();
-  for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) {
+  for_each_offset(*near_, grid.owned(), [&](std::ptrdiff_t at) {
     out[at] += through[at] - through[at + s] + c[at] * courant * (u[at + s] - u[at]);
   });
 }
@@ -109,7 +110,7 @@ void InterfaceAdvection<D>::find_spray(const CellField<D>& water, const CellFiel
   const double* w = water.data();
   const double* theta = porosity.data();
   double* mixed = mixed_.data();
-  for_each_offset(*grid_, grid_->owned().grown(1), [&](std::ptrdiff_t at) {
+  for_each_offset(*near_, grid_->owned().grown(1), [&](std::ptrdiff_t at) {
     bool alone = true;
     for (int a = 0; a < D; ++a) {
       if (grid_->cells()[a] == 1) continue;  // there it would meet its own images only
@@ -128,7 +129,7 @@ void InterfaceAdvection<D>::find_planes(int axis) {
   box.lower[axis] -= 1;
   box.upper[axis] += 1;
   const double* alpha = alpha_.data();
-  for_each_offset(*grid_, box, [&](std::ptrdiff_t at) {
+  for_each_offset(*near_, box, [&](std::ptrdiff_t at) {
     if (alpha[at] > sharp && alpha[at] < 1.0 - sharp)
       planes_[static_cast<std::size_t>(at)] = plane(alpha, at);
   });

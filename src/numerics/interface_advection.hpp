@@ -8,7 +8,7 @@
 /// (docs/methods/free-surface-flow.md).
 #include <vector>
 
-#include "numerics/ghosts.hpp"
+#include "numerics/near_water.hpp"
 #include "numerics/plic.hpp"
 #include "numerics/wall_band.hpp"
 
@@ -24,7 +24,7 @@ enum class Spray { sharp, mixed };
 template <int D>
 class InterfaceAdvection {
  public:
-  explicit InterfaceAdvection(const Grid<D>& grid);
+  InterfaceAdvection(const Grid<D>& grid, const NearWater<D>& near);
 
   /// Cells that count as full of water for the dilation term: W >= theta/2 > 0. The pressure solve
   /// must make the flux free of divergence (up to the porosity's change) in exactly these cells.
@@ -60,6 +60,7 @@ class InterfaceAdvection {
   double water_through(double shift, std::ptrdiff_t donor, int axis, double porosity) const;
 
   const Grid<D>* grid_;
+  const NearWater<D>* near_;
   Ghosts<D> ghosts_;
   CellField<D> alpha_;
   CellField<D> dilates_;

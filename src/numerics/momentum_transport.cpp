@@ -69,8 +69,8 @@ IndexBox<D> inner_faces(const Grid<D>& grid, int axis) {
 }
 
 template <int D>
-MomentumTransport<D>::MomentumTransport(const Grid<D>& grid)
-    : grid_(&grid), moved_(grid, "moved velocity", "m/s") {}
+MomentumTransport<D>::MomentumTransport(const Grid<D>& grid, const NearWater<D>& near)
+    : grid_(&grid), near_(&near), moved_(grid, "moved velocity", "m/s") {}
 
 template <int D>
 template <class Rule>
@@ -87,7 +87,7 @@ void MomentumTransport<D>::advance_component(int component, const CellField<D>& 
   const double *old = old_mass.data(), *now = new_mass.data(), *theta = porosity.data();
   const double* velocity = velocities[component].data();
   double* moved = moved_[component].data();
-  for_each_offset(grid, inner_faces(grid, component), [&](std::ptrdiff_t at) {
+  for_each_offset(*near_, inner_faces(grid, component), [&](std::ptrdiff_t at) {
     const double v = velocity[at];
     const double room = at_face(theta, at);
     Exchange exchange;
@@ -147,7 +147,7 @@ void MomentumTransport<D>::advance(Inertia inertia, const CellField<D>& old_mass
   for (int component = 0; component < D; ++component) {
     const double* from = moved_[component].data();
     double* to = velocity[component].data();
-    for_each_offset(*grid_, inner_faces(*grid_, component),
+    for_each_offset(*near_, inner_faces(*grid_, component),
                     [&](std::ptrdiff_t at) { to[at] = from[at]; });
     copy_to_open_walls(component, to);
   }

@@ -5,7 +5,7 @@
 /// Fluids 28: the control volume of a face holds half the water of its two cells, M_f = (W_L +
 /// W_R)/2, and its fluxes are the means of theirs, so a uniform velocity stays uniform to the last
 /// bit whatever the interface does.
-#include "numerics/ghosts.hpp"
+#include "numerics/near_water.hpp"
 
 namespace mudlark {
 
@@ -16,7 +16,7 @@ enum class Inertia { water, water_and_gas };
 template <int D>
 class MomentumTransport {
  public:
-  explicit MomentumTransport(const Grid<D>& grid);
+  MomentumTransport(const Grid<D>& grid, const NearWater<D>& near);
 
   /// velocity <- velocity - sum F (v* - velocity) / M_f^new on the faces inside the domain; v* is
   /// upwind with van Leer's limited slope (van Leer 1974, J. Comput. Phys. 14). Masses are relative
@@ -35,6 +35,7 @@ class MomentumTransport {
   void copy_to_open_walls(int component, double* values) const;
 
   const Grid<D>* grid_;
+  const NearWater<D>* near_;
   FaceVector<D> moved_;
 };
 

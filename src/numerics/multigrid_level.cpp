@@ -76,7 +76,8 @@ void MultigridLevel<D>::find_unknowns() {
     right_side[u] = solution[u] = inverse_[u] = below_[u] = above_[u] = residual_[u] = 0.0;
   });
   const double* flag = excess.data();
-  find_spans(*this, owned(), [&](std::ptrdiff_t at) { return flag[at] > 0.0; }, spans_);
+  find_spans(
+      *this, owned(), [&](std::ptrdiff_t at) { return flag[at] > 0.0; }, spans_);
   colours_.clear();
   for (const Span& span : spans_) {
     const Index<D> index = index_of(span.first);
@@ -213,8 +214,8 @@ void MultigridLevel<D>::sweep(int colour) {
   exchange(solution);
   const double *b = right_side.data(), *inverse = inverse_.data();
   double* x = solution.data();
-  for_each_of_colour(
-      colour, [&](std::ptrdiff_t at) { x[at] = (b[at] + neighbours(at)) * inverse[at]; });
+  for_each_of_colour(colour,
+                     [&](std::ptrdiff_t at) { x[at] = (b[at] + neighbours(at)) * inverse[at]; });
 }
 
 template <int D>

@@ -59,9 +59,9 @@ class MultigridLevel {
   /// The mirror image of the sweep from zero, which makes the cycle symmetric. Collective.
   void smooth_back();
 
-  std::array<Values, D> coupling;    ///< of a cell with its lower neighbour along the axis
-  Values excess;                     ///< diagonal less the couplings
-  Values right_side, solution;       ///< zero where there is no unknown
+  std::array<Values, D> coupling;           ///< of a cell with its lower neighbour along the axis
+  Values excess;                            ///< diagonal less the couplings
+  Values right_side, solution;              ///< zero where there is no unknown
   double coupled(std::ptrdiff_t at) const;  ///< sum of the couplings of a cell
 
  private:

@@ -91,7 +91,7 @@ void Pfmg<D>::build(const MultigridLevel<D>& level) {
     for_each_offset(level, owned_, [&](std::ptrdiff_t at) {
       const auto u = static_cast<std::size_t>(at);
       const double diagonal = level.excess[u] + level.coupled(at);
-      buffer_.push_back(entry > 0         ? -level.coupling[static_cast<std::size_t>(entry - 1)][u]
+      buffer_.push_back(entry > 0        ? -level.coupling[static_cast<std::size_t>(entry - 1)][u]
                         : diagonal > 0.0 ? diagonal
                                          : alone);
     });

@@ -37,10 +37,11 @@ bool passes_ground(const double* water, const double* porosity, const double* dr
 }  // namespace
 
 template <int D>
-VelocityExtension<D>::VelocityExtension(const Grid<D>& grid)
+VelocityExtension<D>::VelocityExtension(const Grid<D>& grid, const NearWater<D>& near)
     : grid_(&grid),
+      near_(&near),
       ghosts_(grid),
-      state_(grid, "extension state", "1"),
+      state_(grid, "extension state", "1", empty),
       squeeze_(grid, "squeeze", "m/s") {}
 
 template <int D>
@@ -51,7 +52,6 @@ void VelocityExtension<D>::mark(int component, const CellField<D>& unknown,
   IndexBox<D> box = grid.local();
   box.lower[component] += 1;
   const std::ptrdiff_t s = grid.stride(component);
-  state_[component].fill(empty);
   const double* inside = unknown.data();
   const double* w = water.data();
   const double* theta = porosity.data();
@@ -59,7 +59,7 @@ void VelocityExtension<D>::mark(int component, const CellField<D>& unknown,
   const double* below = capacity[D - 1].data();
   const auto on_body = [&](std::ptrdiff_t cell) { return w[cell] > 0.0 && below[cell] == 0.0; };
   const double* open = capacity[component].data();
-  for_each_offset(grid, box, [&](std::ptrdiff_t at) {
+  for_each_offset(*near_, box, [&](std::ptrdiff_t at) {
     const double held = w[at] + w[at - s], room = theta[at] + theta[at - s];
     if (open[at] == 0.0)
       state[at] = closed;
@@ -93,7 +93,7 @@ void VelocityExtension<D>::grow_along_normal(int component, const CellField<D>& 
   const double* w = water.data();
   const double* theta = porosity.data();
   const std::ptrdiff_t sc = grid.stride(component);
-  for_each_place(grid, box, [&](std::ptrdiff_t at, const Index<D>& index) {
+  for_each_place(*near_, box, [&](std::ptrdiff_t at, const Index<D>& index) {
     if (state[at] >= 0.0) return;
     const double room = theta[at] + theta[at - sc];
     const double held = room > 0.0 ? (w[at] + w[at - sc]) / room : 0.0;
@@ -123,7 +123,7 @@ void VelocityExtension<D>::grow_layer(int component, int layer, double* velocity
   if (grid.touches(component, 1)) box = box.extended(component, 1);
   double* state = state_[component].data();
   const double mine = static_cast<double>(layer);
-  for_each_offset(grid, box, [&](std::ptrdiff_t at) {
+  for_each_offset(*near_, box, [&](std::ptrdiff_t at) {
     if (state[at] >= 0.0) return;
     double sum = 0.0, count = 0.0;
     for (int axis = 0; axis < D; ++axis) {
@@ -150,18 +150,18 @@ void VelocityExtension<D>::extend(const CellField<D>& unknown, const CellField<D
     double* v = velocity[component].data();
     double* state = state_[component].data();
     const std::ptrdiff_t s = grid.stride(component);
-    for_each_offset(grid, grid.owned().grown(ghost_layers - 1), [&](std::ptrdiff_t at) {
+    for_each_offset(*near_, grid.owned().grown(ghost_layers - 1), [&](std::ptrdiff_t at) {
       const bool own = state[at] == free_fly &&
                        passes_ground(water.data(), porosity.data(), drains.data(), at, s);
       if (own) state[at] = flying;
     });
     grow_along_normal(component, water, porosity, v);
     const auto all = grid.local();
-    for_each_offset(grid, all, [&](std::ptrdiff_t at) {
+    for_each_offset(*near_, all, [&](std::ptrdiff_t at) {
       if (state[at] == free_fly) state[at] = flying;
     });
     for (int layer = 2; layer <= ghost_layers; ++layer) grow_layer(component, layer, v);
-    for_each_offset(grid, grid.owned_faces(component), [&](std::ptrdiff_t at) {
+    for_each_offset(*near_, grid.owned_faces(component), [&](std::ptrdiff_t at) {
       if (state[at] < 0.0) v[at] = 0.0;
     });
   }
@@ -177,7 +177,7 @@ void VelocityExtension<D>::find_squeeze(const double* unknown, const double* wat
                                         const FaceVector<D>& velocity) {
   const Grid<D>& grid = *grid_;
   double* squeeze = squeeze_.data();
-  for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) {
+  for_each_offset(*near_, grid.owned(), [&](std::ptrdiff_t at) {
     squeeze[at] = 0.0;
     if (unknown[at] > 0.0 || drains[at] > 0.0 || water[at] <= dust * porosity[at]) return;
     double opening = 0.0, free_sides = 0.0;
@@ -202,7 +202,7 @@ void VelocityExtension<D>::keep_from_closing(const CellField<D>& unknown, const 
   double flying_faces = 0.0;
   for (int axis = 0; axis < D; ++axis) {
     const double* state = state_[axis].data();
-    for_each_offset(grid, grid.owned(),
+    for_each_offset(*near_, grid.owned(),
                     [&](std::ptrdiff_t at) { flying_faces += state[at] == flying ? 1.0 : 0.0; });
   }
   if (max_over_ranks(grid, flying_faces) == 0.0) return;
@@ -215,7 +215,7 @@ void VelocityExtension<D>::keep_from_closing(const CellField<D>& unknown, const 
       double* v = velocity[axis].data();
       const double* state = state_[axis].data();
       const std::ptrdiff_t s = grid.stride(axis);
-      for_each_offset(grid, grid.owned_faces(axis), [&](std::ptrdiff_t at) {
+      for_each_offset(*near_, grid.owned_faces(axis), [&](std::ptrdiff_t at) {
         if (state[at] == flying) v[at] += squeeze[at - s] - squeeze[at];
       });
     }

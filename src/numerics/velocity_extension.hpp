@@ -1,13 +1,13 @@
 #pragma once
 /// Velocity on faces that no pressure governs: beyond the surface, and in spray and thin films.
-#include "numerics/ghosts.hpp"
+#include "numerics/near_water.hpp"
 
 namespace mudlark {
 
 template <int D>
 class VelocityExtension {
  public:
-  explicit VelocityExtension(const Grid<D>& grid);
+  VelocityExtension(const Grid<D>& grid, const NearWater<D>& near);
 
   /// Faces that touch a cell with `unknown` = 1 keep their velocity. Faces next to them take
   /// theirs, constant along the normal of the surface. Farther faces with water fly on freely with
@@ -34,6 +34,7 @@ class VelocityExtension {
                     const double* drains, const FaceVector<D>& velocity);
 
   const Grid<D>* grid_;
+  const NearWater<D>* near_;
   Ghosts<D> ghosts_;
   FaceVector<D> state_;
   CellField<D> squeeze_;

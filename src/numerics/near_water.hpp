@@ -1,0 +1,78 @@
+#pragma once
+/// The cells near the water, where alone a flow with a free surface has anything to compute.
+#include <algorithm>
+#include <vector>
+
+#include "numerics/ghosts.hpp"
+
+namespace mudlark {
+
+/// Within five cells of water and two of a velocity; at first all cells. The velocity is extended
+/// by three layers of faces beyond the surface, water moves less than a cell in a step, and
+/// stencils see one cell more. Farther cells keep what they have from one step to the next: no
+/// pressure, no velocity, no flux. Water that vanishes counts for one step more, in which all that
+/// it moved comes to rest.
+template <int D>
+class NearWater {
+ public:
+  /// Cells of one row along the first axis, `end` being the first beyond; `at` is the place of the
+  /// first in the local arrays.
+  struct Run {
+    Index<D> first;
+    int end;
+    std::ptrdiff_t at;
+  };
+
+  explicit NearWater(const Grid<D>& grid);
+
+  /// Looks for them, all inputs having valid ghosts; or takes all cells. Collective.
+  void find(const CellField<D>& water, const CellField<D>& porosity,
+            const FaceVector<D>& velocity);
+  void take_all();
+
+  const std::vector<Run>& runs() const { return runs_; }
+
+ private:
+  void dilate(int cells);
+  void find_runs();
+
+  const Grid<D>* grid_;
+  Ghosts<D> ghosts_;
+  CellField<D> near_, wider_, wet_;
+  bool all_ = false;
+  std::vector<Run> runs_;  ///< of this rank's cells and ghosts, row after row
+};
+
+/// Calls body(run, at, first, end) for the piece of every run that lies in the box: cells first ... end
+/// - 1 along the first axis, the first of them at the place `at`.
+template <int D, class Body>
+inline void for_each_piece(const NearWater<D>& near, const IndexBox<D>& box, Body&& body) {
+  for (const auto& run : near.runs()) {
+    bool inside = true;
+    for (int a = 1; a < D; ++a)
+      inside = inside && run.first[a] >= box.lower[a] && run.first[a] < box.upper[a];
+    if (!inside) continue;
+    const int first = std::max(run.first[0], box.lower[0]), end = std::min(run.end, box.upper[0]);
+    if (first < end) body(run, run.at + (first - run.first[0]), first, end);
+  }
+}
+
+/// As the loops over boxes (numerics/loops.hpp), but near the water only.
+template <int D, class Body>
+inline void for_each_offset(const NearWater<D>& near, const IndexBox<D>& box, Body&& body) {
+  for_each_piece(near, box, [&](const auto&, std::ptrdiff_t at, int first, int end) {
+    for (const std::ptrdiff_t last = at + (end - first); at < last; ++at) body(at);
+  });
+}
+template <int D, class Body>
+inline void for_each_place(const NearWater<D>& near, const IndexBox<D>& box, Body&& body) {
+  for_each_piece(near, box, [&](const auto& run, std::ptrdiff_t at, int first, int end) {
+    Index<D> index = run.first;
+    for (index[0] = first; index[0] < end; ++index[0], ++at) body(at, std::as_const(index));
+  });
+}
+
+extern template class NearWater<2>;
+extern template class NearWater<3>;
+
+}  // namespace mudlark
