@@ -276,6 +276,9 @@ double Projection<D>::assemble(const FaceVector<D>& capacity, const FaceVector<D
         unknown[at] > 0.0 ? target.data()[at] - yielding * risen_.data()[at] : 0.0;
   });
   const bool given = assemble_faces(capacity, mobility, velocity);
+  const double* diagonal = system_.diagonal.data();
+  const auto in_system = [&](std::ptrdiff_t at) { return diagonal[at] > 0.0; };
+  find_spans(*near_, grid.owned(), in_system, system_.unknowns);
   system_.constant_free = max_over_ranks(grid, given || storage ? 1.0 : 0.0) == 0.0;
   return solver_.largest_right_side(system_);
 }

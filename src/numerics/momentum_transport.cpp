@@ -91,6 +91,7 @@ void MomentumTransport<D>::advance_component(int component, const CellField<D>& 
     const double v = velocity[at];
     const double room = at_face(theta, at);
     Exchange exchange;
+    bool still = true;
     for (int axis = 0; axis < D; ++axis) {
       const double* flux = mass_flux[axis].data();
       const std::ptrdiff_t s = grid.stride(axis);
@@ -100,6 +101,7 @@ void MomentumTransport<D>::advance_component(int component, const CellField<D>& 
         const double through =
             0.5 * (axis == component ? flux[here - s] + flux[here] : flux[here - sa] + flux[here]);
         if (through == 0.0) continue;
+        still = false;
         const std::ptrdiff_t donor = through > 0.0 ? here - s : here, step = through > 0.0 ? s : -s;
         double carried = velocity[donor];
         const double donor_mass = at_face(old, donor);
@@ -114,6 +116,10 @@ void MomentumTransport<D>::advance_component(int component, const CellField<D>& 
         exchange.change += donor == at ? momentum : -momentum;
         if (donor != at) exchange.gained += momentum, exchange.came_in += std::abs(through);
       }
+    }
+    if (still) {
+      moved[at] = v;
+      return;
     }
     const double left = at_face(now, at);
     moved[at] = exchange.new_velocity(v, at_face(old, at), left, Rule::solid(exchange, left, room));

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <bit>
-
-#include "numerics/loops.hpp"
+#include <utility>
 
 namespace mudlark {
 namespace {
@@ -44,41 +43,41 @@ Partition<D> without_seams(const Grid<D>& grid) {
 
 template <int D>
 Multigrid<D>::Multigrid(const Grid<D>& grid) : grid_(&grid) {
+  for (int a = 0; a < D; ++a) closed_[static_cast<std::size_t>(a)] = closes_seam(grid, a);
   levels_.emplace_back(without_seams(grid), grid.cells());
 }
 
 /// Operator of the finest level: the system's, without couplings that lead beyond the ends.
 template <int D>
-void Multigrid<D>::fill_finest(const PressureSystem<D>& system, const IndexBox<D>& box) {
+void Multigrid<D>::fill_finest(const PressureSystem<D>& system) {
   const Grid<D>& grid = *grid_;
   MultigridLevel<D>& level = levels_.front();
-  std::fill(level.excess.begin(), level.excess.end(), 0.0);
-  IndexBox<D> rows = box;
-  rows.upper[0] = rows.lower[0] + 1;
-  if (!box.empty())
-    for_each(rows, [&](const Index<D>& row) {
-      const double* diagonal = system.diagonal.data() + grid.offset(row);
-      std::copy(diagonal, diagonal + (box.upper[0] - box.lower[0]),
-                level.excess.data() + level.offset(row));
-    });
-  level.find_unknowns();
-  for (const Span& span : level.spans()) {
+  places_.clear();
+  Spans spans;
+  for (const Span& span : system.unknowns) {
+    Index<D> first;
+    for (int a = 0; a < D; ++a) first[a] = grid.index_along(a, span.first);
+    const std::ptrdiff_t at = level.offset(first);
+    spans.push_back({at, at + (span.last - span.first)});
+    places_.push_back(span.first);
+  }
+  level.take_unknowns(std::move(spans));
+  for (std::size_t n = 0; n < places_.size(); ++n) {
+    const Span& span = level.spans()[n];
     const Index<D> first = level.index_of(span.first);
-    const std::ptrdiff_t shift = grid.offset(first) - span.first;
-    for (std::ptrdiff_t at = span.first; at < span.last; ++at) {
-      double& excess = level.excess[static_cast<std::size_t>(at)];
-      const double diagonal = excess;
+    for (std::ptrdiff_t k = 0; k < span.last - span.first; ++k) {
+      const double diagonal = system.diagonal.data()[places_[n] + k];
+      double excess = diagonal;
+      const auto u = static_cast<std::size_t>(span.first + k);
       for (int a = 0; a < D; ++a) {
-        const auto u = static_cast<std::size_t>(a);
-        const std::ptrdiff_t s = grid.stride(a);
-        const double* c = system.coupling[a].data() + at + shift;
-        const int index = first[a] + (a == 0 ? static_cast<int>(at - span.first) : 0);
-        const bool lower = index > 0 || closes_seam(grid, a);
-        const bool upper = index + 1 < grid.cells()[a] || closes_seam(grid, a);
-        level.coupling[u][static_cast<std::size_t>(at)] = lower ? c[0] : 0.0;
-        excess -= (lower ? c[0] : 0.0) + (upper ? c[s] : 0.0);
+        const double* c = system.coupling[a].data() + places_[n] + k;
+        const int index = first[a] + (a == 0 ? static_cast<int>(k) : 0);
+        const double lower = index > 0 || closed_[static_cast<std::size_t>(a)] ? c[0] : 0.0;
+        const bool beyond = index + 1 == grid.cells()[a] && !closed_[static_cast<std::size_t>(a)];
+        level.coupling[static_cast<std::size_t>(a)][u] = lower;
+        excess -= lower + (beyond ? 0.0 : c[grid.stride(a)]);
       }
-      if (excess < round_off * diagonal) excess = 0.0;
+      level.excess[u] = excess < round_off * diagonal ? 0.0 : excess;
     }
   }
   level.assemble();
@@ -98,8 +97,8 @@ void Multigrid<D>::coarsen(std::size_t from, int axis) {
 }
 
 template <int D>
-void Multigrid<D>::build(const PressureSystem<D>& system, const IndexBox<D>& box) {
-  fill_finest(system, box);
+void Multigrid<D>::build(const PressureSystem<D>& system) {
+  fill_finest(system);
   std::size_t last = 0;
   for (; count(levels_[last].cells()) > few_cells; ++last) {
     const int axis = levels_[last].choose_axis();
@@ -109,7 +108,7 @@ void Multigrid<D>::build(const PressureSystem<D>& system, const IndexBox<D>& box
   if (!coarsest_) {
     Index<D> period{};
     for (int a = 0; a < D; ++a)
-      if (closes_seam(*grid_, a)) period[a] = levels_[last].cells()[a];
+      if (closed_[static_cast<std::size_t>(a)]) period[a] = levels_[last].cells()[a];
     coarsest_ = std::make_unique<Pfmg<D>>(grid_->comm(), levels_[last].owned(), period);
   }
   coarsest_->build(levels_[last]);
@@ -133,22 +132,17 @@ void Multigrid<D>::cycle(std::size_t level) {
 template <int D>
 void Multigrid<D>::apply(const CellField<D>& residual, CellField<D>& out) {
   MultigridLevel<D>& finest = levels_.front();
-  const auto copy = [&](auto&& body) {
-    for (const Span& span : finest.spans()) {
-      const std::ptrdiff_t place = grid_->offset(finest.index_of(span.first));
-      body(span, place);
-    }
-  };
   const double* r = residual.data();
   double* z = out.data();
-  copy([&](const Span& span, std::ptrdiff_t place) {
-    std::copy(r + place, r + place + (span.last - span.first),
-              &finest.right_side[static_cast<std::size_t>(span.first)]);
-  });
+  for (std::size_t n = 0; n < places_.size(); ++n) {
+    const Span& span = finest.spans()[n];
+    std::copy_n(r + places_[n], span.last - span.first, finest.right_side.data() + span.first);
+  }
   cycle(0);
-  copy([&](const Span& span, std::ptrdiff_t place) {
-    std::copy(finest.solution.data() + span.first, finest.solution.data() + span.last, z + place);
-  });
+  for (std::size_t n = 0; n < places_.size(); ++n) {
+    const Span& span = finest.spans()[n];
+    std::copy_n(finest.solution.data() + span.first, span.last - span.first, z + places_[n]);
+  }
 }
 
 template class Multigrid<2>;

@@ -1,6 +1,7 @@
 #include "numerics/multigrid_level.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace mudlark {
 namespace {
@@ -69,15 +70,14 @@ int MultigridLevel<D>::choose_axis() const {
 }
 
 template <int D>
-void MultigridLevel<D>::find_unknowns() {
+void MultigridLevel<D>::take_unknowns(Spans spans) {
   for_each_offset(spans_, [&](std::ptrdiff_t at) {
     const auto u = static_cast<std::size_t>(at);
     for (Values& values : coupling) values[u] = 0.0;
-    right_side[u] = solution[u] = inverse_[u] = below_[u] = above_[u] = residual_[u] = 0.0;
+    excess[u] = right_side[u] = solution[u] = residual_[u] = 0.0;
+    inverse_[u] = below_[u] = above_[u] = 0.0;
   });
-  const double* flag = excess.data();
-  find_spans(
-      *this, owned(), [&](std::ptrdiff_t at) { return flag[at] > 0.0; }, spans_);
+  spans_ = std::move(spans);
   colours_.clear();
   for (const Span& span : spans_) {
     const Index<D> index = index_of(span.first);
@@ -157,20 +157,29 @@ double MultigridLevel<D>::coarse_coupling(std::ptrdiff_t at, int axis) const {
          0.5 * (below[at + s] + below[at + s - across]) * c[at + s];
 }
 
+/// Cells with an unknown that stay, as places in the coarse level.
+template <int D>
+Spans MultigridLevel<D>::kept_spans(const MultigridLevel& coarse) const {
+  Spans kept;
+  for (const Span& span : spans_) {
+    const Index<D> first = index_of(span.first);
+    const int odd = first[axis_] % 2;
+    if (axis_ != 0 && odd == 1) continue;
+    const std::ptrdiff_t cells = span.last - span.first;
+    const std::ptrdiff_t count = axis_ == 0 ? (cells + 1 - odd) / 2 : cells;
+    if (count == 0) continue;
+    const Index<D> stays = first.shifted(axis_, odd);
+    const std::ptrdiff_t at = coarse.offset(stays.shifted(axis_, -stays[axis_] / 2));
+    kept.push_back({at, at + count});
+  }
+  return kept;
+}
+
 template <int D>
 void MultigridLevel<D>::coarsen(MultigridLevel& coarse, int axis) {
   axis_ = axis;
   find_weights();
-  IndexBox<D> rows = coarse.owned();
-  const std::ptrdiff_t count = rows.upper[0] - rows.lower[0], step = axis == 0 ? 2 : 1;
-  rows.upper[0] = rows.lower[0] + 1;
-  for_each(rows, [&](Index<D> row) {
-    double* flag = coarse.excess.data() + coarse.offset(row);
-    row[axis] *= 2;
-    const double* inverse = inverse_.data() + offset(row);
-    for (std::ptrdiff_t i = 0; i < count; ++i) flag[i] = inverse[i * step];
-  });
-  coarse.find_unknowns();
+  coarse.take_unknowns(kept_spans(coarse));
   for_each_kept(coarse, [&](std::ptrdiff_t kept, std::ptrdiff_t at) {
     double& e = coarse.excess[static_cast<std::size_t>(kept)];
     e = coarse_excess(at);

@@ -43,8 +43,8 @@ class MultigridLevel {
   }
   Index<D> index_of(std::ptrdiff_t at) const;
 
-  /// Takes the cells with excess > 0 for those with an unknown.
-  void find_unknowns();
+  /// Cells of this rank with an unknown; all values are zero until they are given.
+  void take_unknowns(Spans spans);
   /// Takes over couplings and excesses of those cells. Collective.
   void assemble();
   /// Operator of the level below, halved along `axis`. Collective.
@@ -68,6 +68,7 @@ class MultigridLevel {
   void exchange(Values& values);
   void shift(Values& values, int axis, int side);
   void find_weights();
+  Spans kept_spans(const MultigridLevel& coarse) const;
   double coarse_excess(std::ptrdiff_t at) const;
   double coarse_coupling(std::ptrdiff_t at, int axis) const;
   template <class Body>

@@ -13,7 +13,11 @@ constexpr double dust = 0.5e-6;
 
 template <int D>
 NearWater<D>::NearWater(const Grid<D>& grid)
-    : grid_(&grid), ghosts_(grid), near_(grid, "near water", "1"), wider_(grid, "near water", "1"), wet_(grid, "wet", "1") {
+    : grid_(&grid),
+      ghosts_(grid),
+      near_(grid, "near water", "1"),
+      wider_(grid, "near water", "1"),
+      wet_(grid, "wet", "1") {
   take_all();
 }
 
@@ -28,7 +32,9 @@ void NearWater<D>::take_all() {
 /// Grows the marked cells by up to as many cells as there are ghost layers along every axis. Valid
 /// on the owned cells of all ranks first, then with ghosts.
 template <int D>
-void NearWater<D>::dilate(int cells) {
+template <int Cells>
+void NearWater<D>::dilate() {
+  static_assert(Cells <= ghost_layers);
   const Grid<D>& grid = *grid_;
   IndexBox<D> box = grid.local();
   for (int axis = 0; axis < D; ++axis) {
@@ -39,7 +45,7 @@ void NearWater<D>::dilate(int cells) {
     double* out = wider_.data();
     for_each_offset(grid, box, [&](std::ptrdiff_t at) {
       double largest = mark[at];
-      for (int n = 1; n <= cells; ++n)
+      for (int n = 1; n <= Cells; ++n)
         largest = std::max(largest, std::max(mark[at - n * s], mark[at + n * s]));
       out[at] = largest;
     });
@@ -58,14 +64,14 @@ void NearWater<D>::find(const CellField<D>& water, const CellField<D>& porosity,
     mark[at] = std::max(now, wet[at]);
     wet[at] = now;
   });
-  dilate(3);
+  dilate<3>();
   mark = near_.data();
   for (int a = 0; a < D; ++a) {
     const double* v = velocity[a].data();
     for_each_offset(*grid_, grid_->local(),
                     [&](std::ptrdiff_t at) { mark[at] = v[at] != 0.0 ? 1.0 : mark[at]; });
   }
-  dilate(2);
+  dilate<2>();
   find_runs();
   all_ = false;
 }

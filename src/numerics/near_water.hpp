@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "numerics/ghosts.hpp"
+#include "numerics/spans.hpp"
 
 namespace mudlark {
 
@@ -26,14 +27,14 @@ class NearWater {
   explicit NearWater(const Grid<D>& grid);
 
   /// Looks for them, all inputs having valid ghosts; or takes all cells. Collective.
-  void find(const CellField<D>& water, const CellField<D>& porosity,
-            const FaceVector<D>& velocity);
+  void find(const CellField<D>& water, const CellField<D>& porosity, const FaceVector<D>& velocity);
   void take_all();
 
   const std::vector<Run>& runs() const { return runs_; }
 
  private:
-  void dilate(int cells);
+  template <int Cells>
+  void dilate();
   void find_runs();
 
   const Grid<D>* grid_;
@@ -43,7 +44,8 @@ class NearWater {
   std::vector<Run> runs_;  ///< of this rank's cells and ghosts, row after row
 };
 
-/// Calls body(run, at, first, end) for the piece of every run that lies in the box: cells first ... end
+/// Calls body(run, at, first, end) for the piece of every run that lies in the box: cells first ...
+/// end
 /// - 1 along the first axis, the first of them at the place `at`.
 template <int D, class Body>
 inline void for_each_piece(const NearWater<D>& near, const IndexBox<D>& box, Body&& body) {
@@ -69,6 +71,14 @@ inline void for_each_place(const NearWater<D>& near, const IndexBox<D>& box, Bod
   for_each_piece(near, box, [&](const auto& run, std::ptrdiff_t at, int first, int end) {
     Index<D> index = run.first;
     for (index[0] = first; index[0] < end; ++index[0], ++at) body(at, std::as_const(index));
+  });
+}
+
+template <int D, class Taken>
+void find_spans(const NearWater<D>& near, const IndexBox<D>& box, Taken&& taken, Spans& spans) {
+  spans.clear();
+  for_each_piece(near, box, [&](const auto&, std::ptrdiff_t at, int first, int end) {
+    add_spans(at, at + (end - first), taken, spans);
   });
 }
 

@@ -38,7 +38,6 @@ void apply(const Grid<D>& grid, const Spans& cells, const PressureSystem<D>& sys
 template <int D>
 PressureSolver<D>::PressureSolver(const Grid<D>& grid)
     : grid_(&grid),
-      box_(grid.owned()),
       ghosts_(grid),
       multigrid_(grid),
       residual_(grid, "residual", "1/s"),
@@ -48,12 +47,11 @@ PressureSolver<D>::PressureSolver(const Grid<D>& grid)
 
 /// Values of cells that had an unknown before and have none now are taken out of the work arrays.
 template <int D>
-void PressureSolver<D>::find_unknowns(const PressureSystem<D>& system) {
+void PressureSolver<D>::take_unknowns(const PressureSystem<D>& system) {
+  if (unknowns_ == system.unknowns) return;
   for (CellField<D>* field : {&residual_, &scaled_, &direction_, &image_})
     for_each_offset(unknowns_, [values = field->data()](std::ptrdiff_t at) { values[at] = 0.0; });
-  const double* diagonal = system.diagonal.data();
-  find_spans(
-      *grid_, box_, [&](std::ptrdiff_t at) { return diagonal[at] > 0.0; }, unknowns_);
+  unknowns_ = system.unknowns;
 }
 
 template <int D>
@@ -94,7 +92,7 @@ double PressureSolver<D>::largest(const CellField<D>& field) const {
 
 template <int D>
 double PressureSolver<D>::largest_right_side(PressureSystem<D>& system) {
-  find_unknowns(system);
+  take_unknowns(system);
   if (system.constant_free) remove_mean(system.right_side);
   return largest(system.right_side);
 }
@@ -171,7 +169,7 @@ template <int D>
 SolveReport PressureSolver<D>::solve(PressureSystem<D>& system, CellField<D>& p, double tolerance,
                                      Hierarchy hierarchy) {
   SolveReport report;
-  find_unknowns(system);
+  take_unknowns(system);
   if (system.constant_free) remove_mean(system.right_side);
   bool current = false;
   // The recursive residual drifts from the true one by round-off: restart from the true one until
@@ -182,7 +180,7 @@ SolveReport PressureSolver<D>::solve(PressureSystem<D>& system, CellField<D>& p,
     report.converged = report.residual <= (restart > 0 ? tolerance : good_start * tolerance);
     if (report.converged || !std::isfinite(report.residual)) break;
     if (!current && (restart > 0 || !built_ || hierarchy == Hierarchy::fresh)) {
-      multigrid_.build(system, box_);
+      multigrid_.build(system);
       current = built_ = true;
     }
     report.plain = restart == 3;

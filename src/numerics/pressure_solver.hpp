@@ -22,10 +22,6 @@ class PressureSolver {
  public:
   explicit PressureSolver(const Grid<D>& grid);
 
-  /// Looks for unknowns among these owned cells only, which may be none on some ranks; at first
-  /// among all. What a system says of others is not read.
-  void cover(const IndexBox<D>& box) { box_ = box; }
-
   /// Solves A p = right side from the present p (warm start), until the largest residual is below
   /// `tolerance` [1/s]; one cycle at least, unless the start is a million times better. With
   /// `system.constant_free` the mean of the right side is taken out first (a closed box cannot
@@ -46,7 +42,7 @@ class PressureSolver {
                bool multigrid, SolveReport& report);
   void find_residual(const PressureSystem<D>& system, CellField<D>& p);
   void precondition(const PressureSystem<D>& system, bool multigrid);
-  void find_unknowns(const PressureSystem<D>& system);
+  void take_unknowns(const PressureSystem<D>& system);
   void remove_mean(CellField<D>& field) const;
   /// Products of one field with two others, over all ranks.
   std::array<double, 2> dot_products(const CellField<D>& one, const CellField<D>& first,
@@ -54,7 +50,6 @@ class PressureSolver {
   double largest(const CellField<D>& field) const;
 
   const Grid<D>* grid_;
-  IndexBox<D> box_;
   Spans unknowns_;
   Ghosts<D> ghosts_;
   Multigrid<D> multigrid_;

@@ -53,7 +53,6 @@ void PoreProjection<D>::cover(const IndexBox<D>& active) {
   system_.diagonal.fill(0.0);
   active_ = active;
   box_ = active.intersected(grid_->owned());
-  solver_.cover(box_);
   hierarchy_ = Hierarchy::fresh;  // so that a resumed run takes the same steps
   if (centred_) ghosts_.update(last_rate_);
 }
@@ -171,6 +170,9 @@ template <int D>
 void PoreProjection<D>::solve(double dt, double time) {
   set_up_cells(dt);
   const bool drained = max_over_ranks(*grid_, cut_couplings() ? 1.0 : 0.0) > 0.0;
+  const double* diagonal = system_.diagonal.data();
+  const auto unknown = [&](std::ptrdiff_t at) { return diagonal[at] > 0.0; };
+  find_spans(*grid_, box_, unknown, system_.unknowns);
   system_.constant_free = !drained && std::isinf(options_->water_bulk_modulus);
   const double largest = solver_.largest_right_side(system_);
   if (!std::isfinite(largest)) report_failure(time);
