@@ -102,11 +102,16 @@ void FlowSolver<D>::find_capacity(const PorousMedium<D>& medium) {
     const std::ptrdiff_t s = grid_->stride(a);
     const double* aperture = medium.space.aperture[a].data();
     double* capacity = capacity_[a].data();
-    IndexBox<D> box = solids_.empty() ? bounding_faces(*grid_, a) : grid_->local();
-    if (!solids_.empty()) box.lower[a] += 1;
-    for_each_offset(*grid_, box, [&](std::ptrdiff_t at) {
+    const auto mean = [&](std::ptrdiff_t at) {
       capacity[at] = aperture[at] * (0.5 * (porosity(at) + porosity(at - s)));
-    });
+    };
+    if (solids_.empty()) {
+      for_each_offset(near_, bounding_faces(*grid_, a), mean);
+      continue;
+    }
+    IndexBox<D> box = grid_->local();
+    box.lower[a] += 1;
+    for_each_offset(*grid_, box, mean);
   }
 }
 
