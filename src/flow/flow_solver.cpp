@@ -60,7 +60,6 @@ FlowSolver<D>::FlowSolver(const Grid<D>& grid, const FlowOptions& options)
       mobility_(grid, "mobility", "m2 s/kg"),
       wall_friction_(grid, "wall friction", "Pa s/m2"),
       body_friction_(grid, "body friction", "Pa s/m2") {
-  everywhere_ = options.gas.has_value();
   if (options.gas) gas_.emplace(grid, options);
   if (options.turbulence.model != TurbulenceModel::none) turbulence_.emplace(grid, options);
   if (!options.ground_sides.empty())
@@ -172,10 +171,7 @@ void FlowSolver<D>::initialise(const PorousMedium<D>& medium) {
 
 template <int D>
 void FlowSolver<D>::find_near() {
-  if (everywhere_)
-    near_.take_all();
-  else
-    near_.find(water_, porosity_, velocity_);
+  if (!gas_) near_.find(water_, porosity_, velocity_, with_ground_);  // else nothing is far
 }
 
 /// Where pressure acts, for the present water: in the water up to its surface, or everywhere.
@@ -360,8 +356,8 @@ void FlowSolver<D>::transport(const PorousMedium<D>& medium, double dt,
 template <int D>
 void FlowSolver<D>::advance(const PorousMedium<D>& medium, double dt, MovingGrains<D>* grains) {
   check_step(dt);
-  if (grains && !everywhere_) {
-    everywhere_ = true;
+  if (grains && !with_ground_) {
+    with_ground_ = true;
     near_.take_all();
   }
   transport(medium, dt, grains ? &grains->velocity : nullptr);

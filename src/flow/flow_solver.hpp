@@ -214,7 +214,7 @@ class FlowSolver {
   FaceVector<D> flux_, carried_, mobility_, wall_friction_, body_friction_;
   double initial_volume_ = 0.0, outflow_ = 0.0, time_ = 0.0;
   std::int64_t step_ = 0;
-  bool everywhere_ = false;  ///< gas, or grains that share the pressure: nothing is far from it
+  bool with_ground_ = false;  ///< grains share the pressure
   SolveReport last_solve_;
 };
 

@@ -99,8 +99,8 @@ double MultigridLevel<D>::coupled(std::ptrdiff_t at) const {
 
 template <int D>
 void MultigridLevel<D>::assemble() {
-  for (Values& values : coupling) exchange(values);
-  exchange(excess);
+  for (Values& values : coupling) exchange_with_corners(values);
+  exchange_with_corners(excess);
   for_each_offset(spans_, [&](std::ptrdiff_t at) {
     const auto u = static_cast<std::size_t>(at);
     const double diagonal = excess[u] + coupled(at);
@@ -132,9 +132,9 @@ void MultigridLevel<D>::find_weights() {
     below_[u] = sum > 0.0 ? c[at] / sum : 0.0;
     above_[u] = sum > 0.0 ? c[at + s] / sum : 0.0;
   });
-  exchange(below_);
-  exchange(above_);
-  exchange(inverse_);
+  exchange_with_corners(below_);
+  exchange_with_corners(above_);
+  exchange_with_corners(inverse_);
 }
 
 /// What a kept cell takes over of the excesses of the cells beside it.
@@ -281,40 +281,61 @@ void MultigridLevel<D>::add_from(MultigridLevel& coarse) {
   }
 }
 
-/// One message along `axis`: values leave towards `side` and arrive from the opposite side.
+/// Layer of cells at a side along an axis, this rank's or the ghosts beyond; across with ghosts.
 template <int D>
-void MultigridLevel<D>::shift(Values& values, int axis, int side) {
-  const auto& neighbour = partition_.neighbour[static_cast<std::size_t>(axis)];
-  const int to = neighbour[static_cast<std::size_t>(side)];
-  const int from = neighbour[static_cast<std::size_t>(1 - side)];
-  if (to == MPI_PROC_NULL && from == MPI_PROC_NULL) return;
-  const auto layer = [&](int place) {
-    IndexBox<D> box = owned().grown(1);
-    box.lower[axis] = place;
-    box.upper[axis] = place + 1;
-    return box;
-  };
-  const int lower = owned().lower[axis], upper = owned().upper[axis];
-  send_.clear();
-  for_each(layer(side == 0 ? lower : upper - 1), [&](const Index<D>& index) {
-    send_.push_back(values[static_cast<std::size_t>(offset(index))]);
-  });
-  receive_.resize(send_.size());
-  const int length = static_cast<int>(send_.size());
-  MPI_Sendrecv(send_.data(), to == MPI_PROC_NULL ? 0 : length, MPI_DOUBLE, to, 8, receive_.data(),
-               from == MPI_PROC_NULL ? 0 : length, MPI_DOUBLE, from, 8, partition_.comm,
-               MPI_STATUS_IGNORE);
-  if (from == MPI_PROC_NULL) return;
-  std::size_t k = 0;
-  for_each(layer(side == 0 ? upper : lower - 1), [&](const Index<D>& index) {
-    values[static_cast<std::size_t>(offset(index))] = receive_[k++];
-  });
+IndexBox<D> MultigridLevel<D>::layer(int axis, int side, bool ghost) const {
+  IndexBox<D> box = owned().grown(1);
+  const int inside = side == 0 ? owned().lower[axis] : owned().upper[axis] - 1;
+  box.lower[axis] = ghost ? inside + (side == 0 ? -1 : 1) : inside;
+  box.upper[axis] = box.lower[axis] + 1;
+  return box;
+}
+
+/// Messages to and from all neighbours along some axes at a time: none of them waits for another.
+template <int D>
+void MultigridLevel<D>::exchange_along(int first, int last, Values& values) {
+  std::array<MPI_Request, 4 * D> requests;
+  int count = 0;
+  for (int axis = first; axis < last; ++axis)
+    for (int side = 0; side < 2; ++side) {
+      const auto n = static_cast<std::size_t>(2 * axis + side);
+      const int neighbour =
+          partition_.neighbour[static_cast<std::size_t>(axis)][static_cast<std::size_t>(side)];
+      if (neighbour == MPI_PROC_NULL) continue;
+      send_[n].clear();
+      for_each(layer(axis, side, false), [&](const Index<D>& index) {
+        send_[n].push_back(values[static_cast<std::size_t>(offset(index))]);
+      });
+      receive_[n].resize(send_[n].size());
+      const int length = static_cast<int>(send_[n].size());
+      // What leaves at one side arrives at the other: the tag says which, two ranks may share both.
+      MPI_Irecv(receive_[n].data(), length, MPI_DOUBLE, neighbour, 2 * axis + 1 - side,
+                partition_.comm, &requests[static_cast<std::size_t>(count++)]);
+      MPI_Isend(send_[n].data(), length, MPI_DOUBLE, neighbour, 2 * axis + side, partition_.comm,
+                &requests[static_cast<std::size_t>(count++)]);
+    }
+  if (count == 0) return;
+  MPI_Waitall(count, requests.data(), MPI_STATUSES_IGNORE);
+  for (int axis = first; axis < last; ++axis)
+    for (int side = 0; side < 2; ++side) {
+      if (partition_.neighbour[static_cast<std::size_t>(axis)][static_cast<std::size_t>(side)] ==
+          MPI_PROC_NULL)
+        continue;
+      const double* next = receive_[static_cast<std::size_t>(2 * axis + side)].data();
+      for_each(layer(axis, side, true), [&](const Index<D>& index) {
+        values[static_cast<std::size_t>(offset(index))] = *next++;
+      });
+    }
 }
 
 template <int D>
 void MultigridLevel<D>::exchange(Values& values) {
-  for (int axis = 0; axis < D; ++axis)
-    for (int side = 0; side < 2; ++side) shift(values, axis, side);
+  exchange_along(0, D, values);
+}
+
+template <int D>
+void MultigridLevel<D>::exchange_with_corners(Values& values) {
+  for (int axis = 0; axis < D; ++axis) exchange_along(axis, axis + 1, values);
 }
 
 template class MultigridLevel<2>;

@@ -65,8 +65,10 @@ class MultigridLevel {
   double coupled(std::ptrdiff_t at) const;  ///< sum of the couplings of a cell
 
  private:
-  void exchange(Values& values);
-  void shift(Values& values, int axis, int side);
+  void exchange(Values& values);  ///< ghosts beyond faces; corners are left
+  void exchange_with_corners(Values& values);
+  void exchange_along(int first, int last, Values& values);
+  IndexBox<D> layer(int axis, int side, bool ghost) const;
   void find_weights();
   Spans kept_spans(const MultigridLevel& coarse) const;
   double coarse_excess(std::ptrdiff_t at) const;
@@ -87,7 +89,8 @@ class MultigridLevel {
   std::vector<int> colours_;  ///< of the first cell of each span
   Values inverse_;            ///< of the diagonal, zero without an unknown
   Values below_, above_;      ///< weights by which a cell follows its neighbours along the axis
-  Values residual_, send_, receive_;
+  Values residual_;
+  std::array<Values, static_cast<std::size_t>(2 * D)> send_, receive_;  ///< by axis and side
 };
 
 extern template class MultigridLevel<2>;

@@ -8,6 +8,8 @@ namespace {
 /// Share of the pores below which water is dust that no velocity is looked for around: half of what
 /// makes a face fly (numerics/velocity_extension.cpp).
 constexpr double dust = 0.5e-6;
+/// What transport may leave of the porosity of open space.
+constexpr double round_off = 1e-9;
 
 }  // namespace
 
@@ -56,11 +58,12 @@ void NearWater<D>::dilate() {
 
 template <int D>
 void NearWater<D>::find(const CellField<D>& water, const CellField<D>& porosity,
-                        const FaceVector<D>& velocity) {
+                        const FaceVector<D>& velocity, bool ground) {
   const double *w = water.data(), *theta = porosity.data();
   double *mark = near_.data(), *wet = wet_.data();
   for_each_offset(*grid_, grid_->local(), [&](std::ptrdiff_t at) {
-    const double now = w[at] > dust * theta[at] ? 1.0 : 0.0;
+    const bool grains = ground && theta[at] < 1.0 - round_off;
+    const double now = w[at] > dust * theta[at] || grains ? 1.0 : 0.0;
     mark[at] = std::max(now, wet[at]);
     wet[at] = now;
   });

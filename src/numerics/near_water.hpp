@@ -8,7 +8,8 @@
 
 namespace mudlark {
 
-/// Within five cells of water and two of a velocity; at first all cells. The velocity is extended
+/// Within five cells of water (and of ground, where its grains take part) and two of a velocity; at
+/// first all cells. The velocity is extended
 /// by three layers of faces beyond the surface, water moves less than a cell in a step, and
 /// stencils see one cell more. Farther cells keep what they have from one step to the next: no
 /// pressure, no velocity, no flux. Water that vanishes counts for one step more, in which all that
@@ -26,8 +27,11 @@ class NearWater {
 
   explicit NearWater(const Grid<D>& grid);
 
-  /// Looks for them, all inputs having valid ghosts; or takes all cells. Collective.
-  void find(const CellField<D>& water, const CellField<D>& porosity, const FaceVector<D>& velocity);
+  /// Looks for them, all inputs having valid ghosts; with `ground` near cells with less porosity
+  /// than 1 too. Collective.
+  void find(const CellField<D>& water, const CellField<D>& porosity, const FaceVector<D>& velocity,
+            bool ground);
+  /// All cells.
   void take_all();
 
   const std::vector<Run>& runs() const { return runs_; }
