@@ -67,12 +67,6 @@ void FlowSides<D>::measure_levels(Side& side, const CellField<D>& water,
   for (double& level : side.levels) level += grid.lower()[D - 1];
 }
 
-template <int D>
-double FlowSides<D>::share_below(const Index<D>& face, double level) const {
-  const double foot = grid_->face_position(D - 1, face[D - 1]);
-  return std::clamp((level - foot) / grid_->width(D - 1, face[D - 1]), 0.0, 1.0);
-}
-
 /// Level of what comes in; sides that are level themselves take all they are given as water.
 template <int D>
 double FlowSides<D>::level_at(const Side& side, const Index<D>& face, double time) const {
@@ -93,7 +87,8 @@ double FlowSides<D>::discharge_speed(const Side& side, const FaceVector<D>& capa
   for_each_face(side, [&](std::ptrdiff_t at, const Index<D>& face) {
     for (int a = 0; a < D; ++a)
       if (a != options.axis && (face[a] < owned.lower[a] || face[a] >= owned.upper[a])) return;
-    area += capacity[options.axis].data()[at] * share_below(face, level_at(side, face, time)) *
+    area += capacity[options.axis].data()[at] *
+            share_below(grid, face, level_at(side, face, time)) *
             (grid.cell_volume() / grid.spacing()[options.axis]);
   });
   area = sum_over_ranks(grid, area);
@@ -116,7 +111,7 @@ void FlowSides<D>::find_flow(const Side& side, const FaceVector<D>& capacity, do
       options.flow == SideFlow::discharge ? discharge_speed(side, capacity, time) : 0.0;
   for_each_face(side, [&](std::ptrdiff_t at, const Index<D>& face) {
     const double level = level_at(side, face, time);
-    const double share = options.axis == D - 1 ? 1.0 : share_below(face, level);
+    const double share = options.axis == D - 1 ? 1.0 : share_below(*grid_, face, level);
     const Vec<D> centre = grid_->face_centre(axis, face);
     inflow_[axis].data()[at] = share;
     if (options.flow == SideFlow::level) {
@@ -145,9 +140,9 @@ void FlowSides<D>::find_wave(const Side& side, double time) {
     const double eta = ramp * side.motion->elevation(place, time);
     const double found = side.levels[column(side, face)];
     const double excess = found - wave.still_level - eta;
-    const double share = share_below(face, wave.still_level + eta);
+    const double share = share_below(grid, face, wave.still_level + eta);
     inflow_[axis].data()[at] = share;
-    if (share == 0.0 && share_below(face, found) == 0.0) return;
+    if (share == 0.0 && share_below(grid, face, found) == 0.0) return;
     const double z = std::min(centre[D - 1] - wave.still_level, eta);
     const WaveVelocity comes = side.motion->velocity(place, z, time);
     speed_[axis].data()[at] =

@@ -62,7 +62,6 @@ class FlowSides {
   double discharge_speed(const Side& side, const FaceVector<D>& capacity, double time) const;
   double level_at(const Side& side, const Index<D>& face, double time) const;
   void bring_motion(const Side& side, FaceVector<D>& velocity) const;
-  double share_below(const Index<D>& face, double level) const;
 
   const Grid<D>* grid_;
   double gravity_, density_;

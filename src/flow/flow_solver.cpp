@@ -349,6 +349,7 @@ void FlowSolver<D>::transport(const PorousMedium<D>& medium, double dt,
     gas_->move_momentum(water_, porosity_, flux_, carried_, dt, momentum_, velocity_);
   else
     momentum_.advance(Inertia::water, old_water_, water_, porosity_, carried_, velocity_);
+  if (ground_sides_) ground_sides_->carry_momentum(velocity_);
   if (turbulence_)
     turbulence_->move(gas_ ? gas_->mass() : water_, gas_ ? gas_->mass_flux() : carried_);
 }
@@ -409,6 +410,7 @@ void FlowSolver<D>::advance(const PorousMedium<D>& medium, double dt, MovingGrai
   if (!gas_)
     extension_.extend(projection_.unknown(), free_water(), free_room(), capacity_, medium.drains,
                       velocity_);
+  if (ground_sides_) ground_sides_->follow_surface(projection_.unknown(), velocity_);
   hold_sides();
   check_finite();
   if (turbulence_) turbulence_->find(medium, saturation_, velocity_);

@@ -23,11 +23,15 @@ GroundSides<D>::GroundSides(const Grid<D>& grid, const std::vector<GroundSideOpt
       density_(density),
       passes_(grid, "passes", "1"),
       two_ways_(grid, "passes both ways", "1"),
+      open_(grid, "open water", "1"),
       inflow_(grid, "share of water in inflow", "1"),
       pressure_(grid, "pressure on sides", "Pa"),
       through_(grid, "velocity on sides", "m/s"),
       alone_(grid, "mobility on sides", "m2 s/kg") {
-  for (const GroundSideOptions& one : options) sides_.push_back({one});
+  for (const GroundSideOptions& one : options)
+    sides_.push_back(
+        {one, 0.0,
+         one.water == GroundSideWater::head && one.axis < D - 1 && grid.gravity()[D - 1] < 0.0});
 }
 
 /// Those of the ghost layers across the side's axis included, unless only `owned` ones are asked
@@ -43,44 +47,70 @@ std::ptrdiff_t GroundSides<D>::inside(const Side& side) const {
   return side.options.side == 0 ? 0 : -grid_->stride(side.options.axis);
 }
 template <int D>
+std::ptrdiff_t GroundSides<D>::inner_face(const Side& side) const {
+  return (side.options.side == 0 ? 1 : -1) * grid_->stride(side.options.axis);
+}
+/// Whether water behind the side presses into a cell that has no pressure.
+template <int D>
+bool GroundSides<D>::comes_in(const Side& side, std::ptrdiff_t at) const {
+  const int axis = side.options.axis;
+  return two_ways_[axis].data()[at] > 0.0 && pressure_[axis].data()[at] > 0.0;
+}
+template <int D>
 double GroundSides<D>::gap(const Side& side) const {
   const int axis = side.options.axis;
   return 0.5 * grid_->width(axis, side.options.side == 0 ? 0 : grid_->cells()[axis] - 1);
 }
 
+/// Open water is held from both sides at every height, as by an open wall; above the level what
+/// comes in is air.
+template <int D>
+void GroundSides<D>::find_face(const Side& side, std::ptrdiff_t at, const Index<D>& face,
+                               bool ground, double pressure, double time) {
+  const int axis = side.options.axis;
+  const GroundSideWater kind = side.options.water;
+  const Vec<D> centre = grid_->face_centre(axis, face);
+  const bool open = side.holds_level && !ground, holds = ground || open;
+  double value = 0.0, share = 1.0;
+  if (kind != GroundSideWater::seepage_face) value = side.options.value(to_point3(centre), time);
+  if (open) share = share_below(*grid_, face, value);
+  if (kind == GroundSideWater::head) {
+    const double gravity = std::abs(grid_->gravity()[D - 1]);
+    value = std::max(gravity > 0.0 ? density_ * gravity * (value - centre[D - 1])
+                                   : density_ * standard_gravity * value,
+                     0.0);
+  }
+  const bool flux = kind == GroundSideWater::inflow;
+  const bool both =
+      kind == GroundSideWater::pressure || (kind == GroundSideWater::head && value > 0.0);
+  const double weight = -side.options.inwards() * density_ * grid_->gravity()[axis] * gap(side);
+  const bool driven_out = pressure + weight > 0.0;
+  open_[axis].data()[at] = open ? 1.0 : 0.0;
+  two_ways_[axis].data()[at] = holds && both ? 1.0 : 0.0;
+  passes_[axis].data()[at] = holds && !flux && (both || open || driven_out) ? 1.0 : 0.0;
+  inflow_[axis].data()[at] = holds && (both || flux || open) ? share : 0.0;
+  pressure_[axis].data()[at] = value;
+  if (!holds) through_[axis].data()[at] = 0.0;
+}
+
 template <int D>
 void GroundSides<D>::find(const CellField<D>& ground, const CellField<D>& pressure,
                           const FaceVector<D>& capacity, double time) {
-  const double gravity = std::abs(grid_->gravity()[D - 1]);
   for (const Side& side : sides_) {
     const int axis = side.options.axis;
-    const GroundSideWater kind = side.options.water;
     const std::ptrdiff_t in = inside(side);
-    const double weight = -side.options.inwards() * density_ * grid_->gravity()[axis] * gap(side);
+    const bool flux = side.options.water == GroundSideWater::inflow;
     for_each_face(side, false, [&](std::ptrdiff_t at, const Index<D>& face) {
-      const Vec<D> centre = grid_->face_centre(axis, face);
-      double value =
-          kind == GroundSideWater::seepage_face ? 0.0 : side.options.value(to_point3(centre), time);
-      const bool flux = kind == GroundSideWater::inflow;
-      if (kind == GroundSideWater::head)
-        value = std::max(gravity > 0.0 ? density_ * gravity * (value - centre[D - 1])
-                                       : density_ * standard_gravity * value,
-                         0.0);
       const bool holds = ground.data()[at + in] > 0.0;
-      const bool both =
-          kind == GroundSideWater::pressure || (kind == GroundSideWater::head && value > 0.0);
-      const bool driven_out = pressure.data()[at + in] + weight > 0.0;
-      two_ways_[axis].data()[at] = holds && both ? 1.0 : 0.0;
-      passes_[axis].data()[at] = holds && !flux && (both || driven_out) ? 1.0 : 0.0;
-      inflow_[axis].data()[at] = holds && (both || flux) ? 1.0 : 0.0;
-      pressure_[axis].data()[at] = flux ? 0.0 : value;
-      double& v = through_[axis].data()[at];
-      if (!holds) v = 0.0;
+      find_face(side, at, face, holds, pressure.data()[at + in], time);
       if (!flux) return;
+      double& value = pressure_[axis].data()[at];  // the flux
       const double open = capacity[axis].data()[at];
       // Nothing is drawn out of pores that are not full.
       const bool there = value > 0.0 || pressure.data()[at + in] != 0.0;
-      v = holds && open > 0.0 && there ? side.options.inwards() * value / open : 0.0;
+      through_[axis].data()[at] =
+          holds && open > 0.0 && there ? side.options.inwards() * value / open : 0.0;
+      value = 0.0;
     });
   }
   halo_.exchange(through_);
@@ -105,6 +135,8 @@ void GroundSides<D>::fill_rows_behind_sides() {
   }
 }
 
+/// Open water that comes in does not move along the side: walls mirror what is inside, and water
+/// that falls there would come in falling, ever faster.
 template <int D>
 void GroundSides<D>::apply(const CellField<D>& porosity, CellField<D>& water,
                            FaceVector<D>& velocity) const {
@@ -112,12 +144,19 @@ void GroundSides<D>::apply(const CellField<D>& porosity, CellField<D>& water,
     const int axis = side.options.axis;
     const std::ptrdiff_t out = side.options.outward(*grid_);
     const double *through = through_[axis].data(), *share = inflow_[axis].data();
+    const double* open = open_[axis].data();
     double* v = velocity[axis].data();
     for_each_face(side, false, [&](std::ptrdiff_t at, const Index<D>&) {
       const std::ptrdiff_t behind = side.options.side == 0 ? at + out : at;
       v[at] = through[at];
       v[at + out] = through[at];
-      if (through[at] != 0.0) water.data()[behind] = share[at] * porosity.data()[behind];
+      if (through[at] != 0.0 || open[at] > 0.0)
+        water.data()[behind] = share[at] * porosity.data()[behind];
+      if (open[at] == 0.0 || side.options.inwards() * through[at] <= 0.0) return;
+      for (int along = 0; along < D; ++along)
+        if (along != axis)
+          for (int layer = 0; layer < ghost_layers; ++layer)
+            velocity[along].data()[behind + layer * out] = 0.0;
     });
   }
 }
@@ -128,6 +167,37 @@ void GroundSides<D>::add_inflow(FaceVector<D>& inflow) const {
     for_each_face(side, false, [&](std::ptrdiff_t at, const Index<D>&) {
       inflow[side.options.axis].data()[at] = inflow_[side.options.axis].data()[at];
     });
+}
+
+template <int D>
+void GroundSides<D>::carry_momentum(const FaceVector<D>& velocity) {
+  for (const Side& side : sides_) {
+    if (!side.holds_level) continue;
+    const int axis = side.options.axis;
+    const std::ptrdiff_t inner = inner_face(side);
+    for_each_face(side, true, [&](std::ptrdiff_t at, const Index<D>&) {
+      if (open_[axis].data()[at] > 0.0)
+        through_[axis].data()[at] = velocity[axis].data()[at + inner];
+    });
+  }
+}
+
+template <int D>
+void GroundSides<D>::follow_surface(const CellField<D>& unknown, const FaceVector<D>& velocity) {
+  if (std::none_of(sides_.begin(), sides_.end(), [](const Side& s) { return s.holds_level; }))
+    return;
+  for (const Side& side : sides_) {
+    if (!side.holds_level) continue;
+    const int axis = side.options.axis;
+    const std::ptrdiff_t in = inside(side), inner = inner_face(side);
+    for_each_face(side, true, [&](std::ptrdiff_t at, const Index<D>&) {
+      const bool at_surface = open_[axis].data()[at] > 0.0 && unknown.data()[at + in] == 0.0;
+      if (at_surface && !comes_in(side, at))
+        through_[axis].data()[at] = velocity[axis].data()[at + inner];
+    });
+  }
+  halo_.exchange(through_);
+  fill_rows_behind_sides();
 }
 
 /// Where the cell behind is not full there is no pressure in it: water of the side comes in against
@@ -149,7 +219,7 @@ void GroundSides<D>::move(const WaterAtSides<D>& at_sides) const {
       v = side.options.water == GroundSideWater::inflow ? before : 0.0;
       if (side.options.water == GroundSideWater::inflow || theta == 0.0) return;
       const bool wet = at_sides.unknown.data()[at + in] > 0.0;
-      const bool comes = two_ways_[axis].data()[at] > 0.0 && pressure_[axis].data()[at] > 0.0;
+      const bool comes = comes_in(side, at);
       if (wet && passes_[axis].data()[at] == 0.0) return;
       const double room = at_sides.room.data()[at + in];
       const bool part = !wet && !comes && room > 0.0;

@@ -1,6 +1,7 @@
 #pragma once
 /// Closed sides of the domain that hold the grains of the ground and let its water through: given
-/// pressures, seepage faces and given fluxes.
+/// pressures, seepage faces, given fluxes, and levels, which hold the open water over the ground as
+/// well.
 #include <limits>
 #include <string>
 #include <vector>
@@ -13,7 +14,8 @@
 namespace mudlark {
 
 /// pressure: of the water behind the side, in and out. head: of water at rest with a level, below
-/// that level; above it a seepage face. seepage_face: water leaves at zero pressure, none comes in.
+/// that level; above it a seepage face; of open water beside an upright side at every height.
+/// seepage_face: water leaves at zero pressure, none comes in.
 /// inflow: a flux into the ground.
 enum class GroundSideWater { pressure, head, seepage_face, inflow };
 
@@ -44,7 +46,8 @@ struct WaterAtSides {
 
 /// The pressure of a side stands half a cell before the first cell centre, and between them lies
 /// ground like that of the cell: M_l dv/dt = theta (rho g - dp/dn) - theta^2 A v, A = mu/kappa. So
-/// the side is a Dirichlet value of the one pressure.
+/// the side is a Dirichlet value of the one pressure. Open water is the same without A; its
+/// momentum through the side is that behind it, as on open walls.
 template <int D>
 class GroundSides {
  public:
@@ -65,6 +68,8 @@ class GroundSides {
 
   /// The water's answer to pressure alone, before grains hold it [m2 s/kg].
   void note_mobility(const FaceVector<D>& mobility) { alone_.copy_values_from(mobility); }
+  /// After the transport: momentum of open water goes on through the side.
+  void carry_momentum(const FaceVector<D>& velocity);
   /// Momentum of the water on faces whose grains are held, drag implicit, pressure apart.
   void move(const WaterAtSides<D>& at_sides) const;
   /// Gravity, for the pressure of water at rest.
@@ -75,9 +80,13 @@ class GroundSides {
   /// Velocities of the step that ends. Collective.
   void note_velocity(const FaceVector<D>& velocity);
 
+  /// Where no pressure holds open water, at its surface, it passes as it moves inside: after the
+  /// velocity was continued there. Collective.
+  void follow_surface(const CellField<D>& unknown, const FaceVector<D>& velocity);
+
   /// Adds up what passed in a step of dt [s]: `carried` as a share of a cell's volume.
   void count(const FaceVector<D>& carried, double dt);
-  /// Out of the ground through a part, mean over the last step [m^D/s]. Collective.
+  /// Out of the domain through a part, mean over the last step [m^D/s]. Collective.
   double discharge(const std::string& name) const;
 
   template <class Archive>
@@ -93,13 +102,19 @@ class GroundSides {
  private:
   struct Side {
     GroundSideOptions options;
-    double discharge = 0.0;  ///< of this rank, out of the ground [m^D/s]
+    double discharge = 0.0;    ///< of this rank, out of the domain [m^D/s]
+    bool holds_level = false;  ///< of open water
   };
+  /// What a face is at a time, from what is behind it.
+  void find_face(const Side& side, std::ptrdiff_t at, const Index<D>& face, bool ground,
+                 double pressure, double time);
   template <class Body>
   void for_each_face(const Side& side, bool owned, Body&& body) const;
   void fill_rows_behind_sides();
-  /// From a face to the cell in the domain beside it.
+  /// From a face to the cell in the domain beside it, and to that cell's other face.
   std::ptrdiff_t inside(const Side& side) const;
+  std::ptrdiff_t inner_face(const Side& side) const;
+  bool comes_in(const Side& side, std::ptrdiff_t at) const;
   double gap(const Side& side) const;  ///< between the side and the first cell centre [m]
 
   const Grid<D>* grid_;
@@ -108,6 +123,7 @@ class GroundSides {
   std::vector<Side> sides_;
   FaceVector<D> passes_;
   FaceVector<D> two_ways_;  ///< 1 where water may also come in
+  FaceVector<D> open_;      ///< 1 where open water is held at a level
   FaceVector<D> inflow_;    ///< share of water in what comes in [-]
   FaceVector<D> pressure_;  ///< [Pa]
   FaceVector<D> through_;   ///< velocity of the water through the sides [m/s]

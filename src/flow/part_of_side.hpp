@@ -1,5 +1,6 @@
 #pragma once
 /// A part of a side of the domain, its faces and the directions there.
+#include <algorithm>
 #include <limits>
 #include <string>
 
@@ -46,6 +47,13 @@ void for_each_face_of(const Grid<D>& grid, const PartOfSide& part, IndexBox<D> b
   for_each_place(grid, box, [&](std::ptrdiff_t at, const Index<D>& index) {
     if (part.covers<D>(grid.face_centre(part.axis, index))) body(at, index);
   });
+}
+
+/// Share of the height of a face [-] that lies below a level [m].
+template <int D>
+double share_below(const Grid<D>& grid, const Index<D>& face, double level) {
+  const double foot = grid.face_position(D - 1, face[D - 1]);
+  return std::clamp((level - foot) / grid.width(D - 1, face[D - 1]), 0.0, 1.0);
 }
 
 }  // namespace mudlark

@@ -139,7 +139,9 @@ void keep_clear(Section& root, const CaseOptions& options) {
             root.place("soil"),
             fmt::format("soil \"{}\" stands at {}, through which water flows; with "
                         "coupling.mode = \"unified\"\n  soil keeps {} cells, {:g} m, clear of "
-                        "such sides (nothing would hold it there).",
+                        "such sides (nothing would hold it there). A closed side holds it, and a "
+                        "[[boundary]] with\n  pore_water = {{ type = \"head\", head = ... }} holds "
+                        "water in it and over it at a level.",
                         body.name, side.name, clear_cells, clear));
   }
 }
@@ -153,9 +155,37 @@ GroundSideWater water_of(const SoilBoundary& part) {
   return part.is_head ? GroundSideWater::head : GroundSideWater::pressure;
 }
 
+/// A level below all that it could hold is a mistake in the datum, or a drain.
+void check_head(Section& root, const DomainOptions& domain, const GroundSideOptions& side,
+                std::size_t number) {
+  const auto up = static_cast<std::size_t>(domain.dimension - 1);
+  if (side.water != GroundSideWater::head || domain.gravity[up] == 0.0) return;
+  const auto axis = static_cast<std::size_t>(side.axis);
+  std::vector<double> place;
+  for (std::size_t a = 0; a <= up; ++a) {
+    const std::size_t c = coordinate(static_cast<int>(a), domain.dimension);
+    place.push_back(
+        0.5 * (std::max(domain.lower[a], side.from[c]) + std::min(domain.upper[a], side.to[c])));
+  }
+  place[axis] = (side.side == 0 ? domain.lower : domain.upper)[axis];
+  const double head = side.value(point_from_axes(place), 0.0);
+  const bool below_part = side.value.constant && axis != up && head < side.from[2];
+  if (!below_part && head >= domain.lower[up]) return;
+  const Value* value = root.raw("boundary");
+  const auto* list = value ? std::get_if<List>(&value->data) : nullptr;
+  root.reading().report.add(
+      list && number < list->size() ? (*list)[number].place : root.place("boundary"),
+      fmt::format("boundary \"{}\" holds water at a head of {:g} m, below its part of the side, "
+                  "which begins at {:g} m.\n  A head is the height of the water's surface on the "
+                  "vertical axis, not a depth. Where water only leaves, write pore_water = "
+                  "\"seepage-face\".",
+                  side.name, head, below_part ? side.from[2] : domain.lower[up]));
+}
+
 /// Water in the ground is the flow's, and so are the sides that let it through.
 void hand_sides_to_flow(Section& root, CaseOptions& options) {
-  for (SoilBoundary& part : options.soil->boundaries) {
+  for (std::size_t b = 0; b < options.soil->boundaries.size(); ++b) {
+    SoilBoundary& part = options.soil->boundaries[b];
     if (!part.for_water) continue;
     part.for_water = false;
     if (part.water == WaterSide::sealed) continue;
@@ -171,6 +201,7 @@ void hand_sides_to_flow(Section& root, CaseOptions& options) {
                         "already what water does there.\n  Let \"from\" and \"to\" keep them "
                         "apart.",
                         part.name, other.name));
+    check_head(root, options.domain, side, b);
     options.flow->ground_sides.push_back(std::move(side));
   }
 }

@@ -58,7 +58,10 @@ void read_grains(Section& section, SoilBoundary& boundary) {
   std::vector<Choice<GrainSide>> kinds = plain_grains;
   kinds.push_back({"friction", GrainSide::friction});
   kinds.push_back({"moving", GrainSide::moving});
+  const std::size_t before = section.reading().report.size();
   boundary.grains = table.choice<GrainSide>("type", kinds);
+  // Which other keys belong here, the type says.
+  if (section.reading().report.size() != before) return;
   if (boundary.grains == GrainSide::friction)
     boundary.friction =
         table.number("friction_coefficient", quantity::number,
@@ -104,7 +107,9 @@ void read_water(Section& section, const DomainOptions& domain, SoilBoundary& bou
     kinds.push_back({"pressure", WaterWord::pressure});
     kinds.push_back({"head", WaterWord::head});
     kinds.push_back({"inflow", WaterWord::inflow});
+    const std::size_t before = section.reading().report.size();
     word = table.choice<WaterWord>("type", kinds);
+    if (section.reading().report.size() != before) return;
     bool level = true;
     for (int a = 0; a < domain.dimension - 1; ++a)
       level = level && domain.gravity[static_cast<std::size_t>(a)] == 0.0;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "input/sections.hpp"
+#include "input/unified.hpp"
 
 namespace mudlark {
 namespace {
@@ -15,6 +16,17 @@ std::string side_name(int axis, int side, int dimension) {
   return fmt::format("{}_{}", side == 0 ? "lower" : "upper", axes[coordinate(axis, dimension)]);
 }
 
+/// A boundary whose head holds the water of a side already, in the ground and over it.
+const SoilBoundary* head_at(const CaseOptions& options, const FlowSideOptions& side) {
+  if (!options.soil || !is_unified(*options.soil)) return nullptr;
+  const auto& all = options.soil->boundaries;
+  const auto found = std::find_if(all.begin(), all.end(), [&](const SoilBoundary& part) {
+    return part.for_water && part.is_head && part.axis < options.domain.dimension - 1 &&
+           parts_meet(side, part, options.domain.dimension);
+  });
+  return found == all.end() ? nullptr : &*found;
+}
+
 /// What the side must be under [domain.walls] for this flow.
 void check_wall(Section& section, const CaseOptions& options, const FlowSideOptions& side) {
   const Wall wall =
@@ -22,6 +34,14 @@ void check_wall(Section& section, const CaseOptions& options, const FlowSideOpti
           .walls[static_cast<std::size_t>(side.axis)][static_cast<std::size_t>(side.side)];
   const bool open = wall == Wall::open, wants_open = side.flow == SideFlow::level;
   if (wall != Wall::periodic && open == wants_open) return;
+  if (wants_open && wall != Wall::periodic && options.soil && is_unified(*options.soil))
+    return section.fail(
+        "side", "water is held at a level by its pressure on an open wall",
+        fmt::format("Write {} = \"open\" under [domain.walls]; where ground stands at the side, "
+                    "which has to hold it, write a [[boundary]] with pore_water = {{ type = "
+                    "\"head\", head = ... }} in place of the opening: it holds the water over the "
+                    "ground at its level too.",
+                    side_name(side.axis, side.side, options.domain.dimension)));
   section.fail("side",
                wants_open ? "water is held at a level by its pressure on an open wall"
                           : "the velocity of the water is given on a closed wall",
@@ -107,6 +127,13 @@ void read_range(Section& section, int dimension, int across, Point3& from, Point
 }
 
 void add_flow_side(Section& section, CaseOptions& options, const FlowSideOptions& side) {
+  if (const SoilBoundary* head = side.flow == SideFlow::level ? head_at(options, side) : nullptr)
+    return section.fail("side",
+                        fmt::format("the head of boundary \"{}\" holds the water there already, in "
+                                    "the ground and over it",
+                                    head->name),
+                        "Leave the opening out, on a closed side, or keep the two apart by from "
+                        "and to.");
   check_wall(section, options, side);
   if (options.flow->gas)
     section.fail("side", "what gas does at such a side is not known yet",

@@ -240,6 +240,41 @@ void doubt_opening(const CaseOptions& options, const FlowSideOptions& side,
       side.name, foot, std::min(side.to[2], domain.upper[up])));
 }
 
+/// Open water over the ground at a side that holds it at another level.
+void doubt_head(const CaseOptions& options, const GroundSideOptions& side,
+                std::vector<std::string>& found) {
+  const DomainOptions& domain = options.domain;
+  const auto up = static_cast<std::size_t>(domain.dimension - 1);
+  const auto axis = static_cast<std::size_t>(side.axis);
+  if (side.water != GroundSideWater::head || axis == up) return;
+  Point3 at{};
+  const double inside = 0.5 * cell_size(domain, axis);
+  at[axis] = side.side == 0 ? domain.lower[axis] + inside : domain.upper[axis] - inside;
+  if (domain.dimension == 3) {
+    const std::size_t across = 1 - axis;
+    at[across] = 0.5 * (std::max(side.from[across], domain.lower[across]) +
+                        std::min(side.to[across], domain.upper[across]));
+  }
+  const std::optional<double> level = water_level(options, at[0], at[1]);
+  if (!level) return;
+  const double cell = cell_size(domain, up);
+  at[2] = std::min(*level, side.to[2]) - 0.5 * cell;
+  const auto here = [&](const auto& part) { return part.shape.contains(at); };
+  const auto& soils = options.soil->bodies;
+  const auto& porous = options.flow->porous;
+  if (at[2] < side.from[2] || std::any_of(soils.begin(), soils.end(), here) ||
+      std::any_of(porous.begin(), porous.end(), here))
+    return;
+  const double head = side.value(at, 0.0);
+  if (std::abs(head - *level) <= cell) return;
+  found.push_back(fmt::format(
+      "boundary \"{}\": its head is {:g} m, and the open water there stands at {:.4g} m when the "
+      "run starts: it {} to the head at once, as a wave. A boundary that ends at the ground "
+      "(\"to\") "
+      "leaves the water over it to the wall.",
+      side.name, head, *level, head > *level ? "rises" : "falls"));
+}
+
 void doubt_water(const CaseOptions& options, std::vector<std::string>& found) {
   const FlowOptions& flow = *options.flow;
   if (flow.density < lightest_water)
@@ -254,6 +289,7 @@ void doubt_water(const CaseOptions& options, std::vector<std::string>& found) {
     doubt_wave(options, zone, zone.outer, zone.inner, found);
   for (const WaveSourceOptions& source : flow.wave_sources)
     doubt_wave(options, source.wave, source.wave.outer, source.wave.outer, found);
+  for (const GroundSideOptions& side : flow.ground_sides) doubt_head(options, side, found);
   for (const FlowSideOptions& side : flow.sides) {
     if (side.flow != SideFlow::wave) {
       doubt_opening(options, side, found);

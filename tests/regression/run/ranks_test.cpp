@@ -43,6 +43,8 @@ TEST_F(Ranks, GiveTheSameLeveeBetweenSidesThatLetWaterThrough) {
   expect_the_same_on_ranks("one_water_sides_2d");
 }
 
+TEST_F(Ranks, GiveTheSameTideBesideALevee) { expect_the_same_on_ranks("one_water_tide_2d"); }
+
 TEST_F(Ranks, GiveTheSameWallPushedThroughASubmergedBed) {
   expect_the_same_on_ranks("one_water_solid_2d");
 }

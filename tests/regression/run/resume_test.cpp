@@ -83,6 +83,9 @@ TEST_F(Resume, AfterKillsGivesTheSameBitsOfARunWithOneWater) {
 TEST_F(Resume, AfterKillsGivesTheSameBitsOfALeveeBetweenSidesThatLetWaterThrough) {
   kill_and_resume("one_water_sides_2d", 2, 2, 11);
 }
+TEST_F(Resume, AfterKillsGivesTheSameBitsOfATideBesideALevee) {
+  kill_and_resume("one_water_tide_2d", 2, 2, 13);
+}
 TEST_F(Resume, AfterKillsGivesTheSameBitsOfABodyInOneWater) {
   kill_and_resume("one_water_solid_2d", 2, 2, 9);
 }

@@ -167,6 +167,19 @@ colour = "blue"
   EXPECT_NE(colour, std::string::npos) << text;
 }
 
+/// What else belongs there, the type would say.
+TEST_F(CaseFile, AWrongTypeOfABoundaryIsTheOnlyMistakeOfItsTable) {
+  const auto lines = [&](const std::string& boundary) {
+    const std::string text =
+        mistakes(wet_column + "[[boundary]]\nname = \"side\"\nside = \"upper_x\"\n" + boundary);
+    EXPECT_NE(text.find("is not possible"), std::string::npos) << text;
+    EXPECT_EQ(text.find("unknown key"), std::string::npos) << text;
+    EXPECT_NE(text.find("Did you mean"), std::string::npos) << text;
+  };
+  lines("pore_water = { type = \"haed\", head = 1.2 }\n");
+  lines("grains = { type = \"moveng\", velocity = [0, 0], along = \"slip\" }\n");
+}
+
 TEST_F(CaseFile, SyntaxErrorsHaveLineAndColumn) {
   EXPECT_NE(mistakes("[domain]\nupper = [1, \n").find("case.toml:"), std::string::npos);
   EXPECT_NE(mistakes("a = 1\nb = = 2\n").find("case.toml:2:5: this is not valid TOML"),

@@ -147,5 +147,23 @@ TEST(Doubts, NozzleAboveTheWaterWithoutALevel) {
   EXPECT_TRUE(doubts(options).empty());
 }
 
+TEST(Doubts, OpenWaterAtASideOfAnotherHead) {
+  CaseOptions options = sand();
+  options.soil->bodies[0].shape.form = BoxShape{{0.0, -1.0, 0.0}, {10.0, 1.0, 0.5}};
+  options.soil->bodies[0].pore_water = PoreWater::unified;
+  options.coupling.mode = CouplingMode::unified;
+  options.soil->water_density = 1000.0, options.soil->water_bulk_modulus = 2e9;
+  options.flow = pond().flow;
+  GroundSideOptions side;
+  side.name = "side", side.water = GroundSideWater::head, side.value = Varying(0.7);
+  options.flow->ground_sides.push_back(side);
+  expect_doubt(options, {"side", "head is 0.7 m", "stands at 1 m", "falls"});
+  options.flow->ground_sides[0].value = Varying(1.05);
+  EXPECT_TRUE(doubts(options).empty());
+  options.flow->ground_sides[0].value = Varying(0.7);
+  options.flow->ground_sides[0].to[2] = 0.5;  // of the ground alone
+  EXPECT_TRUE(doubts(options).empty());
+}
+
 }  // namespace
 }  // namespace mudlark
