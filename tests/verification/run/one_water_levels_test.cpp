@@ -132,13 +132,16 @@ TEST(OneWaterLevels, WaterAndBedFollowASlowTide) {
       EXPECT_NEAR(read(world, GaugeQuantity::water_level, x, 0.0), level, 0.15 * h) << quarter;
     EXPECT_NEAR(read(world, GaugeQuantity::pressure, 6 * h, 2 * h) / weight + 2 * h, level, 0.1 * h)
         << quarter;
-    if (quarter % 2 == 0)  // the tide turns
+    if (quarter % 2 == 0) {  // the tide turns
       EXPECT_NEAR(-world.flow()->ledger().outflow, length * (level - low), 0.01 * length * range);
+    }
     expect_conservation(world);
   }
 }
 
-/// When the level falls below the bed the water over it runs off, and none comes back.
+/// When the level falls below the bed the water over it runs off. What stays: the row of cells at
+/// the rim of ground that lets next to nothing through, whose few grains hold it, and half a row
+/// over it, which has no pressure.
 TEST(OneWaterLevels, WaterOverABedRunsOffToALevelBelowIt) {
   const double h = 0.05, top = 6 * h, k = 1e-6;
   CaseOptions c = soil_box(12, 12, h, box(-9, -9, 9, top), 9 * h, k);
@@ -148,8 +151,8 @@ TEST(OneWaterLevels, WaterOverABedRunsOffToALevelBelowIt) {
   world.initialise();
   run_until(world, 5.0);
   for (const double x : {0.5 * h, 11.5 * h})
-    EXPECT_LT(read(world, GaugeQuantity::water_level, x, 0.0), top + h);
-  EXPECT_GT(world.flow()->ledger().outflow, 0.6 * 12 * h * 3 * h);
+    EXPECT_LT(read(world, GaugeQuantity::water_level, x, 0.0), top + 1.5 * h);
+  EXPECT_GT(world.flow()->ledger().outflow, 0.5 * 12 * h * 3 * h);
   expect_conservation(world);
 }
 
