@@ -220,6 +220,7 @@ void GroundSides<D>::move(const WaterAtSides<D>& at_sides) const {
       if (side.options.water == GroundSideWater::inflow || theta == 0.0) return;
       const bool wet = at_sides.unknown.data()[at + in] > 0.0;
       const bool comes = comes_in(side, at);
+      if (alone == 0.0) return;  // far from all water
       if (wet && passes_[axis].data()[at] == 0.0) return;
       const double room = at_sides.room.data()[at + in];
       const bool part = !wet && !comes && room > 0.0;
