@@ -145,6 +145,49 @@ TEST(PressureSolver, ConvergesInAClosedBoxWithAJumpOfConductivity) {
   EXPECT_LT(report.iterations, 40);
 }
 
+/// Water below a broken surface, with drops and bubbles: cells beside air see it half a cell away.
+template <int D>
+void expect_convergence_with_spray(const Grid<D>& grid) {
+  PressureSystem<D> system(grid);
+  const auto wet = [&](const Index<D>& cell) {
+    if (!grid.global().contains(cell)) return false;
+    const double level = grid.cells()[D - 1] * (0.6 + 0.1 * std::sin(0.7 * cell[0]));
+    double phase = 0.3;
+    for (int a = 0; a < D; ++a) phase += (a + 1.7) * cell[a] * cell[a];
+    const bool odd = std::sin(phase) > 0.9;  // a drop, or a bubble
+    return (cell[D - 1] < level) != odd;
+  };
+  assemble(grid, system, false, [](const Vec<D>&) { return 1.0; });
+  const double inverse = 1.0 / (grid.spacing()[0] * grid.spacing()[0]);
+  for (int axis = 0; axis < D; ++axis)
+    for_each(bounding_faces(grid, axis), [&](const Index<D>& face) {
+      const bool above = wet(face), below = wet(face.shifted(axis, -1));
+      if (above && below) return;
+      const bool wall = system.coupling[axis][face] == 0.0;
+      system.coupling[axis][face] = 0.0;
+      if (wall || above == below) return;
+      const Index<D> cell = above ? face : face.shifted(axis, -1);
+      if (grid.owned().contains(cell)) system.diagonal[cell] += inverse;
+    });
+  for_each(grid.owned(), [&](const Index<D>& cell) {
+    if (!wet(cell)) system.diagonal[cell] = 0.0;
+    system.right_side[cell] = wet(cell) ? std::sin(7.0 * cell[0] + 3.0 * cell[D - 1]) : 0.0;
+  });
+  system.constant_free = false;
+  find_unknowns(grid, system);
+  CellField<D> p(grid, "p", "Pa");
+  PressureSolver<D> solver(grid);
+  const SolveReport report = solver.solve(system, p, 1e-10);
+  EXPECT_TRUE(report.converged);
+  EXPECT_FALSE(report.plain);
+  EXPECT_LT(report.iterations, 25);
+}
+
+TEST(PressureSolver, ConvergesBelowABrokenSurface) {
+  expect_convergence_with_spray(box<2>({96, 64, 1}, {1.5, 1.0, 1.0}, Wall::slip));
+  expect_convergence_with_spray(box<3>({24, 16, 20}, {1.2, 0.8, 1.0}, Wall::slip));
+}
+
 TEST(PressureSolver, LeavesCellsWithoutUnknownAlone) {
   const Grid<2> grid = box<2>({16, 16, 1}, {1.0, 1.0, 1.0}, Wall::slip);
   PressureSystem<2> system(grid);
