@@ -125,18 +125,24 @@ void UnifiedCoupling<D>::move_grains(SoilSolver<D>& soil, double dt) {
   soil.move_with(grains_.velocity, change_, dt);
 }
 
+/// What was not in balance in the last step [N/m3]: what moved the grains, less the damping that it
+/// had.
+template <int D>
+double UnifiedCoupling<D>::unbalanced_force(int axis, const Index<D>& face, double damping) const {
+  const double change = change_[axis][face];
+  const double before = grains_.velocity[axis][face] - change;
+  const double had = before == 0.0 ? 1.0 : change * before > 0.0 ? 1.0 - damping : 1.0 + damping;
+  return grains_.inertia[axis][face] * std::abs(change) / (had * last_step_);
+}
+
 /// Local damping (Cundall 1987) [N/m3]: a share of the force that is not in balance, against the
-/// motion. What was not in balance is what moved the grains in the last step, less the damping that
-/// it had: pressure and drag of the coming step, which the water has a part in, are found after.
+/// motion; that of the last step, as pressure and drag of the coming one, which the water has a
+/// part in, are found after.
 template <int D>
 double UnifiedCoupling<D>::damping_force(int axis, const Index<D>& face, double velocity,
                                          double damping) const {
   if (last_step_ <= 0.0 || velocity == 0.0) return 0.0;
-  const double change = change_[axis][face];
-  const double before = grains_.velocity[axis][face] - change;
-  const double had = before == 0.0 ? 1.0 : change * before > 0.0 ? 1.0 - damping : 1.0 + damping;
-  const double force = grains_.inertia[axis][face] * std::abs(change) / (had * last_step_);
-  return -std::copysign(damping * force, velocity);
+  return -std::copysign(damping * unbalanced_force(axis, face, damping), velocity);
 }
 
 /// Sums of the points as densities. The share of the grains is that of their mass on the same

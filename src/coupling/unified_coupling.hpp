@@ -47,6 +47,13 @@ class UnifiedCoupling {
   MovingGrains<D>& grains() { return grains_; }
   /// Of the grains, at the end of the last step [kg m/s]. Collective.
   Vec<D> grain_momentum() const;
+  /// After a step of dt [s]: work of gravity on grains and water. Collective.
+  void add_work(const FlowSolver<D>& flow, const SoilSolver<D>& soil, double dt);
+  /// How far grains and water are from rest, after a step. Forces are those on the grains, external
+  /// ones their weight and the push of the water; energy is that of both, over the work of gravity
+  /// on both since the start. Nothing before the first step. Collective.
+  std::optional<Statics> statics(FlowSolver<D>& flow, const PorousMedium<D>& medium,
+                                 const SoilSolver<D>& soil);
 
   template <class Archive>
   void archive(Archive& a) {
@@ -54,6 +61,7 @@ class UnifiedCoupling {
     a.faces("grain change", change_);
     a.cells("continued pressure", pressure_);
     a.number("coupling/last step", last_step_);
+    a.number("coupling/work of gravity", work_);
   }
 
  private:
@@ -62,8 +70,13 @@ class UnifiedCoupling {
                          PorousMedium<D>& medium);
   void spread(double (*value)(const SoilBody&), double most, SoilSolver<D>& soil,
               const CellField<D>& fixed, CellField<D>& field) const;
-  struct Push;
+  /// What water at rest does to the grains.
+  struct Push {
+    FaceVector<D> per_share;  ///< of a face [N/m3]
+    FaceVector<D> menisci;    ///< [N/m3]
+  };
   struct Balance;
+  double unbalanced_force(int axis, const Index<D>& face, double damping) const;
   Balance step_towards_rest(const Push& push, const FlowSolver<D>& flow, const Space<D>& space,
                             SoilSolver<D>& soil, double dt);
   void find_room(const PorousMedium<D>& fixed, const Space<D>& space);
@@ -82,6 +95,8 @@ class UnifiedCoupling {
   MovingGrains<D> grains_;
   double strongest_suction_ = 0.0;  ///< of all soils [Pa]
   double last_step_ = 0.0;          ///< [s]
+  double work_ = 0.0;               ///< of gravity on grains and water [J], per metre in 2D
+  std::optional<Push> push_;        ///< once statics() asked
   FaceVector<D> change_;            ///< of the grains' velocity over the last step [m/s]
   FaceVector<D> before_;            ///< that velocity before it [m/s]
 };

@@ -1,4 +1,4 @@
-/// The state of rest from which a case with one water may start.
+/// The state of rest from which a case with one water may start, and how far from rest one is.
 #include <array>
 #include <cmath>
 
@@ -12,13 +12,6 @@ namespace {
 constexpr int steps_between = 50;
 
 }  // namespace
-
-/// What water at rest does to the grains.
-template <int D>
-struct UnifiedCoupling<D>::Push {
-  FaceVector<D> per_share;  ///< of a face [N/m3]
-  FaceVector<D> menisci;    ///< [N/m3]
-};
 
 /// Of this rank's faces: squares of the force that still moves grains (damping included) and of
 /// weight and water [(N/m3)^2], kinetic energy, and work of weight and water over a step [J/m3].
@@ -97,6 +90,49 @@ void UnifiedCoupling<D>::find_equilibrium(FlowSolver<D>& flow, const PorousMediu
   soil.begin_at_rest(given);
 }
 
+template <int D>
+void UnifiedCoupling<D>::add_work(const FlowSolver<D>& flow, const SoilSolver<D>& soil, double dt) {
+  const Vec<D> grains = grain_momentum(), water = flow.momentum();
+  for (int a = 0; a < D; ++a)
+    work_ += dt * grid_->gravity()[a] * (grains[a] / soil.options().mass_scaling + water[a]);
+}
+
+/// What is not in balance is what moved the grains in the last step: their inertia times the change
+/// of their velocity, damping apart.
+template <int D>
+std::optional<Statics> UnifiedCoupling<D>::statics(FlowSolver<D>& flow,
+                                                   const PorousMedium<D>& medium,
+                                                   const SoilSolver<D>& soil) {
+  if (last_step_ <= 0.0) return {};
+  if (!push_)
+    push_.emplace(Push{FaceVector<D>(*grid_, "push of the water", "N/m3"),
+                       FaceVector<D>(*grid_, "pull of menisci", "N/m3")});
+  flow.push_on_grains(medium, push_->per_share, push_->menisci);
+  const double damping = soil.options().damping, scaled = soil.options().mass_scaling;
+  std::array<double, 3> mine{}, all{};  // unbalanced, external, kinetic
+  for (int a = 0; a < D; ++a)
+    for_each(grid_->owned_faces(a), [&](const Index<D>& face) {
+      const double inertia = grains_.inertia[a][face], velocity = grains_.velocity[a][face];
+      if (inertia <= 0.0) return;
+      const double given = inertia * grid_->gravity()[a] / scaled +
+                           grains_.share[a][face] * push_->per_share[a][face] +
+                           push_->menisci[a][face];
+      const double force = unbalanced_force(a, face, damping);
+      mine[0] += force * force;
+      mine[1] += given * given;
+      mine[2] += 0.5 * inertia * velocity * velocity * grid_->cell_volume();
+    });
+  MPI_Allreduce(mine.data(), all.data(), 3, MPI_DOUBLE, MPI_SUM, grid_->comm());
+  return Statics{share_of(std::sqrt(all[0]), std::sqrt(all[1])),
+                 share_of(all[2] + flow.kinetic_energy(), std::abs(work_))};
+}
+
+template void UnifiedCoupling<2>::add_work(const FlowSolver<2>&, const SoilSolver<2>&, double);
+template void UnifiedCoupling<3>::add_work(const FlowSolver<3>&, const SoilSolver<3>&, double);
+template std::optional<Statics> UnifiedCoupling<2>::statics(FlowSolver<2>&, const PorousMedium<2>&,
+                                                            const SoilSolver<2>&);
+template std::optional<Statics> UnifiedCoupling<3>::statics(FlowSolver<3>&, const PorousMedium<3>&,
+                                                            const SoilSolver<3>&);
 template UnifiedCoupling<2>::Balance UnifiedCoupling<2>::step_towards_rest(const Push&,
                                                                            const FlowSolver<2>&,
                                                                            const Space<2>&,

@@ -86,6 +86,8 @@ class FlowSolver {
   /// step (NUMERICS C2); `medium` then says where they are, its flux and drag only what else there
   /// is. Fields of `grains` valid on owned and bounding faces.
   void advance(const PorousMedium<D>& medium, double dt, MovingGrains<D>* grains = nullptr);
+  /// Nothing happens until a time [s].
+  void rest_until(double time) { time_ = time; }
 
   const CellField<D>& pressure() const { return pressure_; }  ///< [Pa], above that of still air
   /// alpha = W / theta [-]; where pores keep a residue, of the water beyond it in the room beyond.

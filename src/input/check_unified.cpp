@@ -57,7 +57,6 @@ std::vector<std::string> excluded(const CaseOptions& options) {
                                   [static_cast<std::size_t>(part.side)] == Wall::open;
      }),
      "a [[boundary]] on an \"open\" wall");
-  no(soil.stop_when_static.has_value(), "soil_solver.stop_when_static");
   no(soil.water_damping.value_or(soil.damping) != soil.damping,
      "a soil_solver.water_damping of its own, as the water is the flow's,");
   no(std::any_of(soil.stages.begin(), soil.stages.end(),

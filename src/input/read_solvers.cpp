@@ -90,9 +90,10 @@ void read_statics(Section& section, SoilOptions& soil, bool water_flows) {
     soil.start_in_equilibrium = read_equilibrium(section, coefficient);
   }
   if (!section.has("stop_when_static")) return;
-  if (water_flows)
+  if (water_flows && !is_unified(soil))
     section.fail("stop_when_static",
-                 "it watches the soil only, and the case has flowing water ([[water.body]])");
+                 "it watches the soil only, and the case has flowing water ([[water.body]])",
+                 "With pore_water = \"unified\" it watches both.");
   soil.stop_when_static = read_rest(section, section.reading().end);
 }
 

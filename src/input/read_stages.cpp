@@ -57,9 +57,10 @@ void check_method(Stage& stage, const SoilOptions& soil, bool water_flows) {
   if (!water_flows) return;
   if (own.mass_scaling.value_or(1.0) > 1.0 && !is_unified(soil))
     section.fail("mass_scaling", "water that flows would meet a soil of false inertia");
-  if (own.stop_when_static)
+  if (own.stop_when_static && !is_unified(soil))
     section.fail("stop_when_static",
-                 "it watches the soil only, and the case has flowing water ([[water.body]])");
+                 "it watches the soil only, and the case has flowing water ([[water.body]])",
+                 "With pore_water = \"unified\" it watches both.");
   if (own.remove)
     section.fail("remove",
                  "flowing water would find a hole without water: [[water.body]] "

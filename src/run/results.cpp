@@ -303,7 +303,7 @@ void Results<D>::write_summary(World<D>& world, const std::string& status,
   summary.message = message;
   // Of points that flew away nothing more can be said.
   if (world.soil() && status != "diverged")
-    if (const auto statics = world.soil()->statics())
+    if (const auto statics = world.statics())
       summary.soil_statics = {{"unbalanced force / external force", statics->unbalanced_force},
                               {"kinetic energy / external work", statics->kinetic_energy}};
   mudlark::write_summary(folder_, summary, world.grid().comm());

@@ -146,18 +146,32 @@ void World<D>::advance(double dt) {
     if (clock_.in_last_stage())
       clock_.stop();
     else
-      clock_.pass_to_stage_end();
+      pass_to_stage_end();
   }
   if (stage && (clock_.stage_over() || clock_.finished())) stage->ended = clock_.time();
 }
 
-/// Has the soil come to rest, where the case asks for it?
+/// Has the soil, and with one water the water, come to rest, where the case asks for it?
 template <int D>
 bool World<D>::at_rest() {
   if (!soil_ || !soil_->options().stop_when_static) return false;
   const RestCriterion& criterion = *soil_->options().stop_when_static;
   const double began = stages_.empty() ? 0.0 : stages_[clock_.stage()].began;
-  return clock_.time() >= began + criterion.after && soil_->statics()->at_rest(criterion);
+  return clock_.time() >= began + criterion.after && statics()->at_rest(criterion);
+}
+
+template <int D>
+void World<D>::pass_to_stage_end() {
+  clock_.pass_to_stage_end();
+  if (!unified_) return;
+  flow_->rest_until(clock_.time());
+  soil_->begin_step(clock_.time(), 0.0, nullptr);
+}
+
+template <int D>
+std::optional<Statics> World<D>::statics() {
+  if (!soil_) return {};
+  return unified_ ? unified_->statics(*flow_, medium_, *soil_) : soil_->statics();
 }
 
 template <int D>
@@ -216,6 +230,7 @@ void World<D>::advance_together(double dt) {
   flow_->advance(medium_, dt, &unified_->grains());
   flow_->push_solids(soil_->solids(), dt);
   unified_->follow_water(*flow_, *soil_, dt);
+  unified_->add_work(*flow_, *soil_, dt);
   flow_->follow_leaders(soil_->solids());
   meters_.read(*flow_, dt);
   effort_.soil_steps += 1;

@@ -57,6 +57,8 @@ class World {
     double smallest_soil_step = 0.0, largest_soil_step = 0.0;  ///< [s]
   };
   Effort& effort() { return effort_; }
+  /// How far the soil, and with one water the water too, are from rest. Between steps. Collective.
+  std::optional<Statics> statics();
 
   const Ledger<D>& ledger() const { return ledger_; }
   const FlowMeters<D>& meters() const { return meters_; }
@@ -80,6 +82,7 @@ class World {
   void advance_soil(double dt);
   void advance_together(double dt);
   bool at_rest();
+  void pass_to_stage_end();
 
   CaseOptions options_;
   Grid<D> grid_;

@@ -45,6 +45,10 @@ TEST_F(Ranks, GiveTheSameLeveeBetweenSidesThatLetWaterThrough) {
 
 TEST_F(Ranks, GiveTheSameTideBesideALevee) { expect_the_same_on_ranks("one_water_tide_2d"); }
 
+TEST_F(Ranks, GiveTheSameBedThatComesToRestUnderWater) {
+  expect_the_same_on_ranks("one_water_rest_2d");
+}
+
 TEST_F(Ranks, GiveTheSameWallPushedThroughASubmergedBed) {
   expect_the_same_on_ranks("one_water_solid_2d");
 }

@@ -86,6 +86,9 @@ TEST_F(Resume, AfterKillsGivesTheSameBitsOfALeveeBetweenSidesThatLetWaterThrough
 TEST_F(Resume, AfterKillsGivesTheSameBitsOfATideBesideALevee) {
   kill_and_resume("one_water_tide_2d", 2, 2, 13);
 }
+TEST_F(Resume, AfterKillsGivesTheSameBitsOfABedThatComesToRestUnderWater) {
+  kill_and_resume("one_water_rest_2d", 2, 2, 14);
+}
 TEST_F(Resume, AfterKillsGivesTheSameBitsOfABodyInOneWater) {
   kill_and_resume("one_water_solid_2d", 2, 2, 9);
 }
