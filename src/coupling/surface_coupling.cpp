@@ -76,18 +76,18 @@ double SurfaceCoupling<D>::added_mass(double dt) const {
   return dt > 0.0 ? water_density_ * water_depth_ / (impedance_ * dt) : 0.0;
 }
 
-/// Depth of the water over the soil: the largest pressure at the mudline, as a column.
+/// Depth of the water over the soil: the largest pressure at the mudline, as a column. All of it
+/// moves where a bed gives way over its whole width (docs/methods/coupling.md).
 template <int D>
 void SurfaceCoupling<D>::measure_depth(const CellField<D>& pressure) {
-  double depth = 0.0, width = 0.0;
+  double depth = 0.0;
   const double weight = water_density_ * std::abs(grid_->gravity()[D - 1]);
-  for (int a = 0; a < D - 1; ++a) width = std::max(width, grid_->cells()[a] * grid_->spacing()[a]);
   if (weight > 0.0)
     for_each(grid_->owned(), [&](const Index<D>& cell) {
       const double share = room_.fraction()[cell] / full_fraction_;
       if (share > 0.1 && share < 0.9) depth = std::max(depth, pressure[cell] / weight);
     });
-  water_depth_ = std::min(max_over_ranks(*grid_, depth), width / 3.14159265358979323846);
+  water_depth_ = max_over_ranks(*grid_, depth);
 }
 
 template <int D>

@@ -9,7 +9,7 @@ namespace {
 
 /// Cells of all ranks at which hypre takes over: little work is left, and what it costs to call it
 /// does not count yet.
-constexpr double few_cells = 600.0;
+constexpr double few_cells = 150.0;
 /// An excess smaller than this part of the diagonal is what round-off left of its sum.
 constexpr double round_off = 1e-13;
 

@@ -9,11 +9,10 @@
 namespace mudlark {
 
 /// Within five cells of water (and of ground, where its grains take part) and two of a velocity; at
-/// first all cells. The velocity is extended
-/// by three layers of faces beyond the surface, water moves less than a cell in a step, and
-/// stencils see one cell more. Farther cells keep what they have from one step to the next: no
-/// pressure, no velocity, no flux. Water that vanishes counts for one step more, in which all that
-/// it moved comes to rest.
+/// first all cells. The velocity is extended by three layers of faces beyond the surface, water
+/// moves less than a cell in a step, and stencils see one cell more. Farther cells keep what they
+/// have from one step to the next: no pressure, no velocity, no flux. Water that vanishes counts
+/// for one step more, in which all that it moved comes to rest.
 template <int D>
 class NearWater {
  public:

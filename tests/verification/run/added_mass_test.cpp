@@ -58,6 +58,45 @@ double energy_growth(double added_mass_factor, double step) {
   return world.soil()->totals().kinetic_energy / start;
 }
 
+/// A column 0.1 m wide that gives way evenly: all of the 39 m of water above it moves.
+CaseOptions narrow_column(double added_mass_factor) {
+  CaseOptions c = rocking_bed(added_mass_factor, 0.004);
+  c.domain.cells = {1, 400, 1};
+  c.domain.upper = {0.1, 40.0, 0.0};
+  c.time.end = 0.6;
+  c.flow->bodies[0].shape.form = BoxShape{{0, -1, 0}, {0.1, 1, 39.8}};
+  SoilBody& body = c.soil->bodies[0];
+  body.shape.form = BoxShape{{0, -1, 0}, {0.1, 1, 1.0}};
+  body.intrinsic_permeability = 1e-4 * 1.002e-3 / 9810.0;
+  body.law = LinearElasticOptions{1e6, 0.3};
+  body.initial_velocity[2] = {};
+  c.coupling.mudline = Mudline::load_only;
+  c.coupling.ramp = 0.036;
+  return c;
+}
+
+/// Largest speed of the soil at the end [m/s]; infinite when the run diverged.
+double speed_at_end(const CaseOptions& options) {
+  World<2> world(options, MPI_COMM_WORLD);
+  world.initialise();
+  try {
+    while (!world.clock().finished()) world.advance(world.clock().choose_step(1.0));
+  } catch (const DivergenceError&) {
+    return HUGE_VAL;
+  }
+  return std::sqrt(2.0 * world.soil()->totals().kinetic_energy);
+}
+
+TEST(AddedMass, OfAllTheWaterMovesWhereTheWholeBedGivesWay) {
+  const double waves_only = 0.1 / pi / 38.8;  // what a wave of the bed would move
+  const double short_of_mass = speed_at_end(narrow_column(waves_only));
+  const double held = speed_at_end(narrow_column(1.0));
+  std::printf("narrow column: sqrt(2 E_kin) = %.3g with L/pi, %.3g with all of the water\n",
+              short_of_mass, held);
+  EXPECT_GT(short_of_mass, 100.0 * held);
+  EXPECT_LT(held, 1.0);
+}
+
 TEST(AddedMass, MakesLooseCouplingDivergeAtShortSteps) {
   EXPECT_GT(energy_growth(0.0, 0.005), 100.0);
 }

@@ -15,8 +15,7 @@ constexpr double h = 0.05, top = 6 * h, length = 18 * h, modulus = 1e6, end = 10
 /// A bed without stress of its own under water, one stage until rest and one after it. Rain falls
 /// once the first is over.
 CaseOptions bed_under_water(double left, double right) {
-  CaseOptions c =
-      soil_in_water(Shape{BoxShape{{-9, -9, -9}, {9, 9, top}}}, 0.0, 1e-2, modulus);
+  CaseOptions c = soil_in_water(Shape{BoxShape{{-9, -9, -9}, {9, 9, top}}}, 0.0, 1e-2, modulus);
   c.domain.dimension = 2;
   c.domain.cells = {18, 14, 1};
   c.domain.upper = {length, 14 * h, 0.0};
