@@ -98,16 +98,23 @@ ExitCode command_line(int argc, char** argv) {
   cases->add_option("name", name, "Case to copy")->type_name("NAME");
   CLI::App* info = app.add_subcommand("info", "What a results folder holds");
   info->add_option("folder", results, "Results folder")->required()->type_name("DIR");
-  CLI::App* plot = app.add_subcommand("plot",
-                                      "Pictures of a results folder (further arguments go to "
-                                      "python3 -m mudlark.plot)");
+  CLI::App* plot = app.add_subcommand("plot", "Pictures of a results folder, drawn by python3");
   plot->add_option("folder", results, "Results folder")->required()->type_name("DIR");
   plot->prefix_command();
-  CLI::App* report = app.add_subcommand("report",
-                                        "One HTML page of a results folder (further arguments go "
-                                        "to python3 -m mudlark.report)");
+  plot->footer(
+      "After the folder:\n"
+      "  --field NAME                one grid field or quantity of the material points\n"
+      "  --time SECONDS              the output nearest to this time only\n"
+      "  --gauge NAME [NAME ...]     these gauges only\n"
+      "  --out FILE.png              into this file; else into the folder's plots");
+  CLI::App* report =
+      app.add_subcommand("report", "One HTML page of a results folder, made by python3");
   report->add_option("folder", results, "Results folder")->required()->type_name("DIR");
   report->prefix_command();
+  report->footer(
+      "After the folder:\n"
+      "  --frames NUMBER             at most so many outputs under the slider\n"
+      "  --out FILE.html             into this file; else report.html in the folder");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -126,10 +126,29 @@ void doubt_grains(const CaseOptions& options, const SoilBody& body,
         body.name, conductivity));
 }
 
+/// Walls hold soil in tension: what touches one above hangs from it. Whoever says what is there
+/// knows.
+void doubt_ceiling(const CaseOptions& options, const SoilBody& body,
+                   std::vector<std::string>& found) {
+  const DomainOptions& domain = options.domain;
+  const auto up = static_cast<std::size_t>(domain.dimension - 1);
+  const Wall ceiling = domain.walls[up][1];
+  if (ceiling == Wall::open || ceiling == Wall::periodic || !(domain.gravity[up] < 0.0)) return;
+  for (const SoilBoundary& boundary : options.soil->boundaries)
+    if (boundary.axis == domain.dimension - 1 && boundary.side == 1) return;
+  if (bounds(body.shape).upper[2] < domain.upper[up] - 0.01 * cell_size(domain, up)) return;
+  found.push_back(fmt::format(
+      "soil \"{}\": it reaches up to the closed upper side of the domain and hangs from it: closed "
+      "sides hold soil in tension too. Make the domain higher, or write upper_z = \"open\" under "
+      "[domain.walls].",
+      body.name));
+}
+
 void doubt_soil(const CaseOptions& options, std::vector<std::string>& found) {
   for (const SoilBody& body : options.soil->bodies) {
     doubt_stiffness(options, body, found);
     doubt_grains(options, body, found);
+    doubt_ceiling(options, body, found);
     const double friction = friction_angle(body.law).value_or(0.0);
     if (friction > 0.0 && friction < least_friction)
       found.push_back(fmt::format(

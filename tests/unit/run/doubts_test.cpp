@@ -63,6 +63,14 @@ void expect_doubt(const CaseOptions& options, std::initializer_list<const char*>
   for (const char* word : words) EXPECT_NE(found[0].find(word), std::string::npos) << found[0];
 }
 
+TEST(Doubts, SoilThatHangsFromAClosedSide) {
+  CaseOptions full = sand();
+  std::get<BoxShape>(full.soil->bodies[0].shape.form).upper[2] = 2.0;
+  expect_doubt(full, {"sand", "hangs", "upper_z = \"open\""});
+  full.domain.walls[1][1] = Wall::open;
+  EXPECT_TRUE(doubts(full).empty());
+}
+
 TEST(Doubts, AreNotRaisedByUsualCases) {
   EXPECT_TRUE(doubts(sand()).empty());
   CaseOptions sea = pond();
