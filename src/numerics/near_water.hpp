@@ -47,9 +47,8 @@ class NearWater {
   std::vector<Run> runs_;  ///< of this rank's cells and ghosts, row after row
 };
 
-/// Calls body(run, at, first, end) for the piece of every run that lies in the box: cells first ...
-/// end
-/// - 1 along the first axis, the first of them at the place `at`.
+/// Calls body(run, at, first, end) for the piece of every run that lies in the box. Its cells along
+/// the first axis are first ... end - 1, and `at` is the place of the first.
 template <int D, class Body>
 inline void for_each_piece(const NearWater<D>& near, const IndexBox<D>& box, Body&& body) {
   for (const auto& run : near.runs()) {
