@@ -3,6 +3,7 @@
 
 #include "flow/flow_checks.hpp"
 #include "flow/flow_solver.hpp"
+#include "flow/wall_friction.hpp"
 #include "numerics/loops.hpp"
 
 namespace mudlark {
@@ -106,6 +107,21 @@ SolidLoad FlowSolver<D>::solid_load_ahead(std::size_t body, double time) const {
 }
 
 template WallPressure<2> FlowSolver<2>::wall_pressure() const;
+/// Of walls and of the surfaces of bodies.
+template <int D>
+void FlowSolver<D>::make_friction() {
+  if (options_.wall_law != WallLaw::resolved)
+    find_wall_friction(*grid_, options_, saturation_, velocity_, wall_friction_);
+  if (!solids_.no_slip()) return;
+  if (options_.wall_law == WallLaw::resolved) wall_friction_.fill(0.0);
+  find_body_friction(*grid_, solids_, porosity_, options_.viscosity, body_friction_);
+  ghosts_.add_to_owners(body_friction_);
+  for (int a = 0; a < D; ++a)
+    for_each_offset(*grid_, bounding_faces(*grid_, a), [&](std::ptrdiff_t at) {
+      wall_friction_[a].data()[at] += body_friction_[a].data()[at];
+    });
+}
+
 template void FlowSolver<2>::restore(PorousMedium<2>&);
 template void FlowSolver<2>::move_solids(PorousMedium<2>&, double);
 template void FlowSolver<2>::follow_solids(const PorousMedium<2>&);
@@ -123,5 +139,7 @@ template void FlowSolver<3>::drive_solids(double);
 template double FlowSolver<3>::pressure_at(const Vec<3>&) const;
 template SolidLoad FlowSolver<3>::solid_load(std::size_t, const std::optional<BoxShape>&) const;
 template SolidLoad FlowSolver<3>::solid_load_ahead(std::size_t, double) const;
+template void FlowSolver<2>::make_friction();
+template void FlowSolver<3>::make_friction();
 
 }  // namespace mudlark

@@ -7,6 +7,7 @@
 #include "flow/percolation.hpp"
 #include "flow/wall_friction.hpp"
 #include "numerics/loops.hpp"
+#include "parallel/stopwatch.hpp"
 
 namespace mudlark {
 namespace {
@@ -296,13 +297,14 @@ void FlowSolver<D>::find_loose() {
   });
 }
 
-/// Water, porosity and momentum over dt with the present velocity. Cells that may change their
+/// Water and porosity over dt with the present velocity. Cells that may change their
 /// volume (void, or gas that gives way) take the medium's porosity as it is, or what their water
 /// needs until a pressure can push it out: there the dilation term is zero, so nothing is lost or
 /// gained.
 template <int D>
-void FlowSolver<D>::transport(const PorousMedium<D>& medium, double dt,
-                              const FaceVector<D>* grain_velocity) {
+void FlowSolver<D>::move_water(const PorousMedium<D>& medium, double dt,
+                               const FaceVector<D>* grain_velocity) {
+  const Stopwatch watch(effort_.interface);
   const Grid<D>& grid = *grid_;
   find_flux();
   old_water_.copy_values_from(water_);
@@ -342,6 +344,12 @@ void FlowSolver<D>::transport(const PorousMedium<D>& medium, double dt,
   ghosts_.update(porosity_);
   find_capacity(medium);
   ghosts_.exchange(carried_);
+}
+
+/// With the water that has just moved.
+template <int D>
+void FlowSolver<D>::move_momentum(double dt) {
+  const Stopwatch watch(effort_.momentum);
   solids_.walls().extend_velocity(velocity_);
   hold_sides();
   if (!options_.advection) return;
@@ -354,14 +362,11 @@ void FlowSolver<D>::transport(const PorousMedium<D>& medium, double dt,
     turbulence_->move(gas_ ? gas_->mass() : water_, gas_ ? gas_->mass_flux() : carried_);
 }
 
+/// What else gives or takes water, and what follows from where it is now.
 template <int D>
-void FlowSolver<D>::advance(const PorousMedium<D>& medium, double dt, MovingGrains<D>* grains) {
-  check_step(dt);
-  if (grains && !with_ground_) {
-    with_ground_ = true;
-    near_.take_all();
-  }
-  transport(medium, dt, grains ? &grains->velocity : nullptr);
+void FlowSolver<D>::settle_water(const PorousMedium<D>& medium, double dt,
+                                 const MovingGrains<D>* grains) {
+  const Stopwatch watch(effort_.interface);
   if (!waves_.empty()) make_waves(dt);
   if (grains)
     fall_to_surface(*grid_, medium, porosity_,
@@ -374,17 +379,12 @@ void FlowSolver<D>::advance(const PorousMedium<D>& medium, double dt, MovingGrai
   find_sides(time_ + dt, &medium);
   find_near();
   find_unknowns();
-  if (options_.wall_law != WallLaw::resolved)
-    find_wall_friction(*grid_, options_, saturation_, velocity_, wall_friction_);
-  if (solids_.no_slip()) {
-    if (options_.wall_law == WallLaw::resolved) wall_friction_.fill(0.0);
-    find_body_friction(*grid_, solids_, porosity_, options_.viscosity, body_friction_);
-    ghosts_.add_to_owners(body_friction_);
-    for (int a = 0; a < D; ++a)
-      for_each_offset(*grid_, bounding_faces(*grid_, a), [&](std::ptrdiff_t at) {
-        wall_friction_[a].data()[at] += body_friction_[a].data()[at];
-      });
-  }
+}
+
+template <int D>
+void FlowSolver<D>::apply_forces(const PorousMedium<D>& medium, double dt, bool with_grains) {
+  const Stopwatch watch(effort_.forces);
+  make_friction();
   solids_.walls().extend_velocity(velocity_);
   hold_sides();
   if (turbulence_) turbulence_->advance(medium, saturation_, velocity_, dt);
@@ -394,7 +394,13 @@ void FlowSolver<D>::advance(const PorousMedium<D>& medium, double dt, MovingGrai
   drained_.slow(free_water(), free_room(), projection_.unknown(), medium.added_mass, dt, velocity_,
                 mobility_);
   hold_sides();
-  if (!grains) push_given(medium);
+  if (!with_grains) push_given(medium);
+}
+
+template <int D>
+void FlowSolver<D>::make_free_of_divergence(const PorousMedium<D>& medium, double dt,
+                                            MovingGrains<D>* grains) {
+  const Stopwatch watch(effort_.pressure);
   find_target(medium, dt, grains ? slow_feedback(*grid_) : HUGE_VAL);
   sources_.add(time_ + dt, target_);
   const bool gas_gives_way = gas_ && gas_->compressible();
@@ -406,12 +412,33 @@ void FlowSolver<D>::advance(const PorousMedium<D>& medium, double dt, MovingGrai
   else
     last_solve_ = projection_.project(capacity_, mobility_, target_, give_way, pressure_, velocity_,
                                       options_.pressure_tolerance / dt);
+  effort_.cycles += last_solve_.iterations;
+}
+
+template <int D>
+void FlowSolver<D>::extend_velocity(const PorousMedium<D>& medium) {
+  const Stopwatch watch(effort_.extension);
   ghosts_.update_velocity(velocity_);
   if (!gas_)
     extension_.extend(projection_.unknown(), free_water(), free_room(), capacity_, medium.drains,
                       velocity_);
   if (ground_sides_) ground_sides_->follow_surface(projection_.unknown(), velocity_);
   hold_sides();
+}
+
+template <int D>
+void FlowSolver<D>::advance(const PorousMedium<D>& medium, double dt, MovingGrains<D>* grains) {
+  check_step(dt);
+  if (grains && !with_ground_) {
+    with_ground_ = true;
+    near_.take_all();
+  }
+  move_water(medium, dt, grains ? &grains->velocity : nullptr);
+  move_momentum(dt);
+  settle_water(medium, dt, grains);
+  apply_forces(medium, dt, grains != nullptr);
+  make_free_of_divergence(medium, dt, grains);
+  extend_velocity(medium);
   check_finite();
   if (turbulence_) turbulence_->find(medium, saturation_, velocity_);
   step_ += 1;

@@ -37,6 +37,16 @@ struct WaterLedger {
   double initial = 0.0, outflow = 0.0, present = 0.0;
 };
 
+/// What the steps have cost so far: wall-clock time of this rank [s].
+struct FlowEffort {
+  double interface = 0.0;   ///< water, porosity and what follows from where they are
+  double momentum = 0.0;    ///< transport of momentum and turbulence
+  double forces = 0.0;      ///< waves, friction, viscosity and drag
+  double pressure = 0.0;    ///< system and solution
+  double extension = 0.0;   ///< velocity beyond the surface
+  std::int64_t cycles = 0;  ///< of multigrid
+};
+
 template <int D>
 struct FastestPlace {
   double speed = 0.0;  ///< [m/s]
@@ -129,6 +139,7 @@ class FlowSolver {
   /// The same a time [s] later, if the water stood still meanwhile. Collective.
   SolidLoad solid_load_ahead(std::size_t body, double time) const;
   const SolveReport& last_solve() const { return last_solve_; }
+  const FlowEffort& effort() const { return effort_; }
 
   /// What the present pressure does to grains at rest: force per unit of their share of a face
   /// [N/m3], and what menisci pull them with [N/m3]. Between steps. Collective.
@@ -161,7 +172,13 @@ class FlowSolver {
  private:
   void update_derived(const PorousMedium<D>* medium = nullptr);
   void fill_with_bodies(const PorousMedium<D>& medium);
-  void transport(const PorousMedium<D>& medium, double dt, const FaceVector<D>* grain_velocity);
+  void move_water(const PorousMedium<D>& medium, double dt, const FaceVector<D>* grain_velocity);
+  void move_momentum(double dt);
+  void settle_water(const PorousMedium<D>& medium, double dt, const MovingGrains<D>* grains);
+  void make_friction();
+  void apply_forces(const PorousMedium<D>& medium, double dt, bool with_grains);
+  void make_free_of_divergence(const PorousMedium<D>& medium, double dt, MovingGrains<D>* grains);
+  void extend_velocity(const PorousMedium<D>& medium);
   void find_loose();
   void find_capacity(const PorousMedium<D>& medium);
   void follow_solids(const PorousMedium<D>& medium);
@@ -218,6 +235,7 @@ class FlowSolver {
   std::int64_t step_ = 0;
   bool with_ground_ = false;  ///< grains share the pressure
   SolveReport last_solve_;
+  FlowEffort effort_;
 };
 
 extern template class FlowSolver<2>;

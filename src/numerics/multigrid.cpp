@@ -49,37 +49,25 @@ Multigrid<D>::Multigrid(const Grid<D>& grid) : grid_(&grid) {
 
 /// Operator of the finest level: the system's, without couplings that lead beyond the ends.
 template <int D>
-void Multigrid<D>::fill_finest(const PressureSystem<D>& system) {
-  const Grid<D>& grid = *grid_;
+void Multigrid<D>::fill_finest(const PackedCells<D>& cells, const std::array<Values, D>& coupling,
+                               const Values& diagonal) {
   MultigridLevel<D>& level = levels_.front();
-  places_.clear();
-  Spans spans;
-  for (const Span& span : system.unknowns) {
-    Index<D> first;
-    for (int a = 0; a < D; ++a) first[a] = grid.index_along(a, span.first);
-    const std::ptrdiff_t at = level.offset(first);
-    spans.push_back({at, at + (span.last - span.first)});
-    places_.push_back(span.first);
-  }
-  level.take_unknowns(std::move(spans));
-  for (std::size_t n = 0; n < places_.size(); ++n) {
-    const Span& span = level.spans()[n];
-    const Index<D> first = level.index_of(span.first);
-    for (std::ptrdiff_t k = 0; k < span.last - span.first; ++k) {
-      const double diagonal = system.diagonal.data()[places_[n] + k];
-      double excess = diagonal;
-      const auto u = static_cast<std::size_t>(span.first + k);
+  level.take_unknowns({cells.runs().begin(), cells.runs().end()});
+  for (const auto& run : cells.runs())  // the same cells lie at the same places
+    for (int k = 0; k < run.cells; ++k) {
+      const auto at = static_cast<std::size_t>(run.at + k);
+      double excess = diagonal[at];
       for (int a = 0; a < D; ++a) {
-        const double* c = system.coupling[a].data() + places_[n] + k;
-        const int index = first[a] + (a == 0 ? static_cast<int>(k) : 0);
-        const double lower = index > 0 || closed_[static_cast<std::size_t>(a)] ? c[0] : 0.0;
-        const bool beyond = index + 1 == grid.cells()[a] && !closed_[static_cast<std::size_t>(a)];
-        level.coupling[static_cast<std::size_t>(a)][u] = lower;
-        excess -= lower + (beyond ? 0.0 : c[grid.stride(a)]);
+        const auto u = static_cast<std::size_t>(a);
+        const double* c = coupling[u].data() + run.at + k;
+        const int index = run.first[a] + (a == 0 ? k : 0);
+        const double lower = index > 0 || closed_[u] ? c[0] : 0.0;
+        const bool beyond = index + 1 == grid_->cells()[a] && !closed_[u];
+        level.coupling[u][at] = lower;
+        excess -= lower + (beyond ? 0.0 : c[run.above[u]]);
       }
-      level.excess[u] = excess < round_off * diagonal ? 0.0 : excess;
+      level.excess[at] = excess < round_off * diagonal[at] ? 0.0 : excess;
     }
-  }
   level.assemble();
 }
 
@@ -97,8 +85,9 @@ void Multigrid<D>::coarsen(std::size_t from, int axis) {
 }
 
 template <int D>
-void Multigrid<D>::build(const PressureSystem<D>& system) {
-  fill_finest(system);
+void Multigrid<D>::build(const PackedCells<D>& cells, const std::array<Values, D>& coupling,
+                         const Values& diagonal) {
+  fill_finest(cells, coupling, diagonal);
   std::size_t last = 0;
   for (; count(levels_[last].cells()) > few_cells; ++last) {
     const int axis = levels_[last].choose_axis();
@@ -130,19 +119,35 @@ void Multigrid<D>::cycle(std::size_t level) {
 }
 
 template <int D>
-void Multigrid<D>::apply(const CellField<D>& residual, CellField<D>& out) {
+bool Multigrid<D>::fits(const PackedCells<D>& cells) const {
+  return std::equal(cells.runs().begin(), cells.runs().end(), levels_.front().runs().begin(),
+                    levels_.front().runs().end(),
+                    [](const RowPart<D>& one, const RowPart<D>& other) { return one == other; });
+}
+
+template <int D>
+void Multigrid<D>::apply(const PackedCells<D>& cells, const Values& residual, Values& out) {
   MultigridLevel<D>& finest = levels_.front();
-  const double* r = residual.data();
-  double* z = out.data();
-  for (std::size_t n = 0; n < places_.size(); ++n) {
-    const Span& span = finest.spans()[n];
-    std::copy_n(r + places_[n], span.last - span.first, finest.right_side.data() + span.first);
-  }
+  // Calls body(place among the cells, place in the finest level) for all that both have.
+  const auto for_each_common = [&](auto&& body) {
+    for (const auto& run : finest.runs())
+      for (int k = 0; k < run.cells; ++k)
+        if (const std::ptrdiff_t at = cells.find(run.first.shifted(0, k)); at >= 0)
+          body(static_cast<std::size_t>(at), static_cast<std::size_t>(run.at + k));
+  };
+  const bool same = fits(cells);
+  if (same)
+    finest.right_side = residual;
+  else
+    for_each_common(
+        [&](std::size_t at, std::size_t here) { finest.right_side[here] = residual[at]; });
   cycle(0);
-  for (std::size_t n = 0; n < places_.size(); ++n) {
-    const Span& span = finest.spans()[n];
-    std::copy_n(finest.solution.data() + span.first, span.last - span.first, z + places_[n]);
-  }
+  if (same)
+    cells.for_each([&](std::ptrdiff_t at, const auto&) {
+      out[static_cast<std::size_t>(at)] = finest.solution[static_cast<std::size_t>(at)];
+    });
+  else
+    for_each_common([&](std::size_t at, std::size_t here) { out[at] = finest.solution[here]; });
 }
 
 template class Multigrid<2>;

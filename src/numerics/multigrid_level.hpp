@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "base/vec.hpp"
-#include "numerics/spans.hpp"
-#include "parallel/partition.hpp"
+#include "numerics/packed_cells.hpp"
 
 namespace mudlark {
 
@@ -17,7 +16,7 @@ namespace mudlark {
 /// so that the operator keeps its 5 or 7 points and all terms stay positive. Only cells with an
 /// unknown cost anything. Which cells stay does not depend on the ranks.
 ///
-/// Arrays hold this rank's cells and one layer of ghosts; behind a wall they are zero.
+/// Values outside the cells with an unknown are zero.
 template <int D>
 class MultigridLevel {
  public:
@@ -33,18 +32,13 @@ class MultigridLevel {
   int choose_axis() const;
 
   const Index<D>& cells() const { return cells_; }
-  const IndexBox<D>& owned() const { return partition_.owned; }
-  const Spans& spans() const { return spans_; }
-  std::ptrdiff_t stride(int axis) const { return strides_[static_cast<std::size_t>(axis)]; }
-  std::ptrdiff_t offset(const Index<D>& index) const {
-    std::ptrdiff_t at = 0;
-    for (int a = 0; a < D; ++a) at += (index[a] - owned().lower[a] + 1) * stride(a);
-    return at;
-  }
-  Index<D> index_of(std::ptrdiff_t at) const;
+  const IndexBox<D>& owned() const { return packed_.owned(); }
+  using Run = typename PackedCells<D>::Run;
+  const PackedCells<D>& packed() const { return packed_; }
+  const std::vector<Run>& runs() const { return packed_.runs(); }
 
   /// Cells of this rank with an unknown; all values are zero until they are given.
-  void take_unknowns(Spans spans);
+  void take_unknowns(const std::vector<RowPart<D>>& cells) { store(cells, {}); }
   /// Takes over couplings and excesses of those cells. Collective.
   void assemble();
   /// Operator of the level below, halved along `axis`. Collective.
@@ -59,38 +53,48 @@ class MultigridLevel {
   /// The mirror image of the sweep from zero, which makes the cycle symmetric. Collective.
   void smooth_back();
 
-  std::array<Values, D> coupling;           ///< of a cell with its lower neighbour along the axis
-  Values excess;                            ///< diagonal less the couplings
-  Values right_side, solution;              ///< zero where there is no unknown
-  double coupled(std::ptrdiff_t at) const;  ///< sum of the couplings of a cell
+  std::array<Values, D> coupling;  ///< of a cell with its lower neighbour along the axis
+  Values excess;                   ///< diagonal less the couplings
+  Values right_side, solution;     ///< zero where there is no unknown
+  /// Excess and the sum of the couplings.
+  double diagonal(std::ptrdiff_t at, const Run& run) const;
 
  private:
-  void exchange(Values& values);  ///< ghosts beyond faces; corners are left
-  void exchange_with_corners(Values& values);
-  void exchange_along(int first, int last, Values& values);
-  IndexBox<D> layer(int axis, int side, bool ghost) const;
+  /// A run of the level below, and where its cells are here.
+  struct Kept {
+    std::ptrdiff_t kept, at, below, above;
+    int cells;
+  };
+  /// What a run here follows on the level below: the place of its first cell's image or of the
+  /// image's lower neighbour, and the way from there to the upper one.
+  struct Followed {
+    bool between;  ///< does the first cell lie between two that stay?
+    std::ptrdiff_t from, above;
+  };
+  using Cross = std::array<std::array<std::ptrdiff_t, 3>, 3>;  ///< ways by shift along two axes
+
+  void store(const std::vector<RowPart<D>>& cells, const std::vector<IndexBox<D>>& asked);
   void find_weights();
-  Spans kept_spans(const MultigridLevel& coarse) const;
-  double coarse_excess(std::ptrdiff_t at) const;
-  double coarse_coupling(std::ptrdiff_t at, int axis) const;
-  template <class Body>
-  void for_each_kept(const MultigridLevel& coarse, Body&& body) const;
+  std::vector<RowPart<D>> kept_runs() const;
+  std::vector<IndexBox<D>> asked_below() const;
+  void find_ways(const MultigridLevel& coarse);
+  Cross ways_across(const Index<D>& cell, int axis) const;
+  double coarse_excess(std::ptrdiff_t at, const Kept& run) const;
+  double coupling_across(std::ptrdiff_t at, int axis, const Cross& ways, std::size_t side) const;
   template <class Body>
   void for_each_of_colour(int colour, Body&& body) const;
-  double neighbours(std::ptrdiff_t at) const;
+  double neighbours(std::ptrdiff_t at, const Run& run) const;
   void sweep(int colour);
 
-  Partition<D> partition_;
+  PackedCells<D> packed_;
   Index<D> cells_;
-  std::array<std::ptrdiff_t, D> strides_{};
   std::array<bool, D> halves_{};
-  int axis_ = 0;              ///< along which the level below is halved
-  Spans spans_;               ///< this rank's cells with an unknown
-  std::vector<int> colours_;  ///< of the first cell of each span
-  Values inverse_;            ///< of the diagonal, zero without an unknown
-  Values below_, above_;      ///< weights by which a cell follows its neighbours along the axis
+  int axis_ = 0;                    ///< along which the level below is halved
+  std::vector<Kept> kept_;          ///< by run of the level below
+  std::vector<Followed> followed_;  ///< by run
+  Values inverse_;                  ///< of the diagonal, zero without an unknown
+  Values below_, above_;  ///< weights by which a cell follows its neighbours along the axis
   Values residual_;
-  std::array<Values, static_cast<std::size_t>(2 * D)> send_, receive_;  ///< by axis and side
 };
 
 extern template class MultigridLevel<2>;

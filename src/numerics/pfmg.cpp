@@ -71,29 +71,48 @@ struct Pfmg<D>::Hypre {
 
 template <int D>
 Pfmg<D>::Pfmg(MPI_Comm comm, const IndexBox<D>& owned, const Index<D>& period)
-    : comm_(comm), owned_(owned), hypre_(std::make_unique<Hypre>(comm, owned, period)) {}
+    : comm_(comm), owned_(owned), hypre_(std::make_unique<Hypre>(comm, owned, period)) {
+  std::size_t count = 1;
+  for (int a = 0; a < D; ++a) count *= static_cast<std::size_t>(owned.upper[a] - owned.lower[a]);
+  buffer_.resize(count);
+}
 
 template <int D>
 Pfmg<D>::~Pfmg() = default;
+
+/// Calls body(run, values in the buffer) for the level's runs of cells with an unknown.
+template <int D>
+template <class Body>
+void Pfmg<D>::for_each_run(const MultigridLevel<D>& level, Body&& body) {
+  for (const auto& run : level.runs()) {
+    std::ptrdiff_t at = 0;
+    for (int a = D - 1; a >= 0; --a)
+      at = at * (owned_.upper[a] - owned_.lower[a]) + run.first[a] - owned_.lower[a];
+    body(run, buffer_.data() + at);
+  }
+}
 
 template <int D>
 void Pfmg<D>::build(const MultigridLevel<D>& level) {
   Hypre& h = *hypre_;
   double largest = 0.0;
-  for_each_offset(level.spans(), [&](std::ptrdiff_t at) {
-    largest = std::max(largest, level.excess[static_cast<std::size_t>(at)] + level.coupled(at));
-  });
+  for (const auto& run : level.runs())
+    for (int k = 0; k < run.cells; ++k)
+      largest = std::max(largest, level.diagonal(run.at + k, run));
   MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, comm_);
   // Cells without an unknown become rows of their own, of the size of the others.
   const double alone = std::max(largest, 1e-300);
   for (HYPRE_Int entry = 0; entry <= D; ++entry) {
-    buffer_.clear();
-    for_each_offset(level, owned_, [&](std::ptrdiff_t at) {
-      const auto u = static_cast<std::size_t>(at);
-      const double diagonal = level.excess[u] + level.coupled(at);
-      buffer_.push_back(entry > 0        ? -level.coupling[static_cast<std::size_t>(entry - 1)][u]
-                        : diagonal > 0.0 ? diagonal
-                                         : alone);
+    std::fill(buffer_.begin(), buffer_.end(), entry == 0 ? alone : 0.0);
+    for_each_run(level, [&](const auto& run, double* values) {
+      for (int k = 0; k < run.cells; ++k) {
+        const auto u = static_cast<std::size_t>(run.at + k);
+        const double diagonal = level.diagonal(run.at + k, run);
+        if (entry > 0)
+          values[k] = -level.coupling[static_cast<std::size_t>(entry - 1)][u];
+        else if (diagonal > 0.0)
+          values[k] = diagonal;
+      }
     });
     check(HYPRE_StructMatrixSetBoxValues(h.matrix, h.lower, h.upper, 1, &entry, buffer_.data()),
           "fill a matrix");
@@ -116,9 +135,9 @@ void Pfmg<D>::build(const MultigridLevel<D>& level) {
 template <int D>
 void Pfmg<D>::apply(MultigridLevel<D>& level) {
   Hypre& h = *hypre_;
-  buffer_.clear();
-  for_each_offset(level, owned_, [&](std::ptrdiff_t at) {
-    buffer_.push_back(level.right_side[static_cast<std::size_t>(at)]);
+  std::fill(buffer_.begin(), buffer_.end(), 0.0);
+  for_each_run(level, [&](const auto& run, double* values) {
+    std::copy_n(level.right_side.data() + run.at, run.cells, values);
   });
   check(HYPRE_StructVectorSetBoxValues(h.residual, h.lower, h.upper, buffer_.data()),
         "fill a vector");
@@ -127,9 +146,8 @@ void Pfmg<D>::apply(MultigridLevel<D>& level) {
   HYPRE_ClearAllErrors();
   check(HYPRE_StructVectorGetBoxValues(h.correction, h.lower, h.upper, buffer_.data()),
         "read a vector");
-  std::size_t k = 0;
-  for_each_offset(level, owned_, [&](std::ptrdiff_t at) {
-    level.solution[static_cast<std::size_t>(at)] = buffer_[k++];
+  for_each_run(level, [&](const auto& run, const double* values) {
+    std::copy_n(values, run.cells, level.solution.data() + run.at);
   });
 }
 

@@ -23,10 +23,13 @@ class Pfmg {
 
  private:
   struct Hypre;  // keeps hypre's headers (and macros) out of everybody else's sight
+  template <class Body>
+  void for_each_run(const MultigridLevel<D>& level, Body&& body);
+
   MPI_Comm comm_;
   IndexBox<D> owned_;
   std::unique_ptr<Hypre> hypre_;
-  std::vector<double> buffer_;
+  std::vector<double> buffer_;  ///< of all owned cells
 };
 
 extern template class Pfmg<2>;

@@ -14,62 +14,88 @@ constexpr int plain_limit = 20000;
 /// direction.
 constexpr double good_start = 1e-6;
 
-/// out = A p on the cells of the spans; `p` needs valid ghosts.
-template <int D>
-void apply(const Grid<D>& grid, const Spans& cells, const PressureSystem<D>& system,
-           const CellField<D>& p, CellField<D>& out) {
-  const double* x = p.data();
-  const double* diagonal = system.diagonal.data();
-  double* y = out.data();
-  const double* c0 = system.coupling[0].data();
-  const double* c1 = system.coupling[1].data();
-  const double* c2 = system.coupling[D - 1].data();
-  const std::ptrdiff_t s1 = grid.stride(1), s2 = grid.stride(D - 1);
-  for_each_offset(cells, [&](std::ptrdiff_t at) {
-    double sum = diagonal[at] * x[at] - c0[at] * x[at - 1] - c0[at + 1] * x[at + 1] -
-                 c1[at] * x[at - s1] - c1[at + s1] * x[at + s1];
-    if constexpr (D == 3) sum -= c2[at] * x[at - s2] + c2[at + s2] * x[at + s2];
-    y[at] = sum;
-  });
+/// Calls body(place in the grid's arrays, place of the same cell in packed ones, its run).
+template <int D, class Body>
+void for_each_pair(const Spans& spans, const PackedCells<D>& cells, Body&& body) {
+  for (std::size_t n = 0; n < spans.size(); ++n) {
+    const auto& run = cells.runs()[n];
+    for (std::ptrdiff_t k = 0; k < run.cells; ++k) body(spans[n].first + k, run.at + k, run);
+  }
 }
 
 }  // namespace
 
 template <int D>
 PressureSolver<D>::PressureSolver(const Grid<D>& grid)
-    : grid_(&grid),
-      ghosts_(grid),
-      multigrid_(grid),
-      residual_(grid, "residual", "1/s"),
-      scaled_(grid, "scaled residual", "Pa"),
-      direction_(grid, "search direction", "Pa"),
-      image_(grid, "image", "1/s") {}
+    : grid_(&grid), ghosts_(grid), cells_(grid.partition()), multigrid_(grid) {}
 
-/// Values of cells that had an unknown before and have none now are taken out of the work arrays.
 template <int D>
 void PressureSolver<D>::take_unknowns(const PressureSystem<D>& system) {
   if (unknowns_ == system.unknowns) return;
-  for (CellField<D>* field : {&residual_, &scaled_, &direction_, &image_})
-    for_each_offset(unknowns_, [values = field->data()](std::ptrdiff_t at) { values[at] = 0.0; });
   unknowns_ = system.unknowns;
+  std::vector<RowPart<D>> parts;
+  for (const Span& span : unknowns_) {
+    RowPart<D> part{{}, static_cast<int>(span.last - span.first)};
+    for (int a = 0; a < D; ++a) part.first[a] = grid_->index_along(a, span.first);
+    parts.push_back(part);
+  }
+  cells_.store(parts);
+  for (Values& values : coupling_) values.assign(cells_.size(), 0.0);
+  for (Values* values : {&diagonal_, &pressure_, &residual_, &scaled_, &direction_, &image_})
+    values->assign(cells_.size(), 0.0);
 }
 
 template <int D>
-std::array<double, 2> PressureSolver<D>::dot_products(const CellField<D>& one,
-                                                      const CellField<D>& first,
-                                                      const CellField<D>& second) const {
+void PressureSolver<D>::take_matrix(const PressureSystem<D>& system) {
+  for_each_pair(unknowns_, cells_, [&](std::ptrdiff_t at, std::ptrdiff_t here, const auto&) {
+    diagonal_[static_cast<std::size_t>(here)] = system.diagonal.data()[at];
+  });
+  for (int a = 0; a < D; ++a) {
+    const double* from = system.coupling[a].data();
+    double* to = coupling_[static_cast<std::size_t>(a)].data();
+    const std::ptrdiff_t s = grid_->stride(a);
+    for_each_pair(unknowns_, cells_, [&](std::ptrdiff_t at, std::ptrdiff_t here, const auto& run) {
+      to[here] = from[at];
+      to[here + run.above[static_cast<std::size_t>(a)]] = from[at + s];
+    });
+  }
+}
+
+/// image_ = A p on the cells. Collective.
+template <int D>
+void PressureSolver<D>::multiply(Values& p) {
+  cells_.exchange(p);
+  const double *x = p.data(), *diagonal = diagonal_.data();
+  const double *c0 = coupling_[0].data(), *c1 = coupling_[1].data(), *c2 = coupling_[D - 1].data();
+  double* y = image_.data();
+  for (const auto& run : cells_.runs()) {
+    const std::ptrdiff_t b1 = run.below[1], a1 = run.above[1];
+    const std::ptrdiff_t b2 = run.below[D - 1], a2 = run.above[D - 1];
+    for (std::ptrdiff_t at = run.at; at < run.at + run.cells; ++at) {
+      double sum = diagonal[at] * x[at] - c0[at] * x[at - 1] - c0[at + 1] * x[at + 1] -
+                   c1[at] * x[at + b1] - c1[at + a1] * x[at + a1];
+      if constexpr (D == 3) sum -= c2[at] * x[at + b2] + c2[at + a2] * x[at + a2];
+      y[at] = sum;
+    }
+  }
+}
+
+template <int D>
+std::array<double, 2> PressureSolver<D>::dot_products(const Values& one, const Values& first,
+                                                      const Values& second) const {
   constexpr int lanes = 4;  // sums side by side: no addition waits for the one before
   std::array<double, lanes> sums[2] = {};
   const double *a = one.data(), *b = first.data(), *c = second.data();
-  for (const Span& span : unknowns_) {
-    std::ptrdiff_t at = span.first;
-    for (; at + lanes <= span.last; at += lanes)
+  for (const auto& run : cells_.runs()) {
+    std::ptrdiff_t at = run.at;
+    const std::ptrdiff_t last = at + run.cells;
+    for (; at + lanes <= last; at += lanes)
       for (std::size_t k = 0; k < lanes; ++k) {
         const auto place = at + static_cast<std::ptrdiff_t>(k);
         sums[0][k] += a[place] * b[place];
         sums[1][k] += a[place] * c[place];
       }
-    for (; at < span.last; ++at) sums[0][0] += a[at] * b[at], sums[1][0] += a[at] * c[at];
+    for (; at < last; ++at) sums[0][0] += a[at] * b[at], sums[1][0] += a[at] * c[at];
   }
   std::array<double, 2> total{};
   for (std::size_t n = 0; n < 2; ++n)
@@ -79,13 +105,12 @@ std::array<double, 2> PressureSolver<D>::dot_products(const CellField<D>& one,
 }
 
 template <int D>
-double PressureSolver<D>::largest(const CellField<D>& field) const {
+double PressureSolver<D>::largest(const Values& values) const {
   double size = 0.0;
   bool finite = true;
-  const double* a = field.data();
-  for_each_offset(unknowns_, [&](std::ptrdiff_t at) {
-    size = std::max(size, std::abs(a[at]));
-    finite = finite && std::isfinite(a[at]);
+  cells_.for_each([&, v = values.data()](std::ptrdiff_t at, const auto&) {
+    size = std::max(size, std::abs(v[at]));
+    finite = finite && std::isfinite(v[at]);
   });
   return max_over_ranks(*grid_, finite ? size : HUGE_VAL);
 }
@@ -93,68 +118,81 @@ double PressureSolver<D>::largest(const CellField<D>& field) const {
 template <int D>
 double PressureSolver<D>::largest_right_side(PressureSystem<D>& system) {
   take_unknowns(system);
-  if (system.constant_free) remove_mean(system.right_side);
-  return largest(system.right_side);
+  take_right_side(system);
+  return largest(residual_);
 }
 
-/// Takes the mean over all cells with an unknown out of a field.
+/// residual_ = right side; its mean over all cells with an unknown is taken out where a constant is
+/// free, in the system too.
 template <int D>
-void PressureSolver<D>::remove_mean(CellField<D>& field) const {
+void PressureSolver<D>::take_right_side(PressureSystem<D>& system) {
+  double* b = system.right_side.data();
+  for_each_pair(unknowns_, cells_, [&](std::ptrdiff_t at, std::ptrdiff_t here, const auto&) {
+    residual_[static_cast<std::size_t>(here)] = b[at];
+  });
+  if (!system.constant_free) return;
+  remove_mean(residual_);
+  for_each_pair(unknowns_, cells_, [&](std::ptrdiff_t at, std::ptrdiff_t here, const auto&) {
+    b[at] = residual_[static_cast<std::size_t>(here)];
+  });
+}
+
+template <int D>
+void PressureSolver<D>::remove_mean(Values& values) const {
   std::array<double, 2> sum{};  // and count
-  double* value = field.data();
-  for_each_offset(unknowns_, [&](std::ptrdiff_t at) { sum[0] += value[at], sum[1] += 1.0; });
+  double* v = values.data();
+  cells_.for_each([&](std::ptrdiff_t at, const auto&) { sum[0] += v[at], sum[1] += 1.0; });
   MPI_Allreduce(MPI_IN_PLACE, sum.data(), 2, MPI_DOUBLE, MPI_SUM, grid_->comm());
   const double mean = sum[0] / std::max(sum[1], 1.0);
-  for_each_offset(unknowns_, [&](std::ptrdiff_t at) { value[at] -= mean; });
+  cells_.for_each([&](std::ptrdiff_t at, const auto&) { v[at] -= mean; });
 }
 
 template <int D>
-void PressureSolver<D>::find_residual(const PressureSystem<D>& system, CellField<D>& p) {
-  ghosts_.update(p);
-  apply(*grid_, unknowns_, system, p, image_);
-  const double* b = system.right_side.data();
-  const double* image = image_.data();
+void PressureSolver<D>::find_residual(const PressureSystem<D>& system) {
+  multiply(pressure_);
+  const double *b = system.right_side.data(), *image = image_.data();
   double* r = residual_.data();
-  for_each_offset(unknowns_, [&](std::ptrdiff_t at) { r[at] = b[at] - image[at]; });
+  for_each_pair(unknowns_, cells_, [&](std::ptrdiff_t at, std::ptrdiff_t here, const auto&) {
+    r[here] = b[at] - image[here];
+  });
   if (system.constant_free) remove_mean(residual_);
 }
 
 template <int D>
-void PressureSolver<D>::precondition(const PressureSystem<D>& system, bool multigrid) {
-  const double* r = residual_.data();
-  const double* diagonal = system.diagonal.data();
+void PressureSolver<D>::precondition(bool constant_free, bool multigrid) {
+  const double *r = residual_.data(), *diagonal = diagonal_.data();
   double* z = scaled_.data();
   // A kept hierarchy may leave out some of the cells: they get the diagonal.
-  for_each_offset(unknowns_, [&](std::ptrdiff_t at) { z[at] = r[at] / diagonal[at]; });
-  if (multigrid) multigrid_.apply(residual_, scaled_);
-  if (system.constant_free) remove_mean(scaled_);
+  if (!multigrid || !multigrid_.fits(cells_))
+    cells_.for_each([&](std::ptrdiff_t at, const auto&) { z[at] = r[at] / diagonal[at]; });
+  if (multigrid) multigrid_.apply(cells_, residual_, scaled_);
+  if (constant_free) remove_mean(scaled_);
 }
 
 /// Preconditioned conjugate gradients (Hestenes & Stiefel 1952) with the flexible (Polak-Ribiere)
 /// step, which forgives a preconditioner that is only nearly symmetric. Returns whether the
 /// tolerance was reached.
 template <int D>
-bool PressureSolver<D>::iterate(const PressureSystem<D>& system, CellField<D>& p, double tolerance,
-                                int limit, bool multigrid, SolveReport& report) {
+bool PressureSolver<D>::iterate(bool constant_free, double tolerance, int limit, bool multigrid,
+                                SolveReport& report) {
   double energy = 0.0;
-  double *x = p.data(), *r = residual_.data(), *d = direction_.data();
+  double *x = pressure_.data(), *r = residual_.data(), *d = direction_.data();
   const double *z = scaled_.data(), *image = image_.data();
   for (int iteration = 0; iteration < limit; ++iteration) {
-    precondition(system, multigrid);
+    precondition(constant_free, multigrid);
     // image_ still holds A direction and step*image_ is what the residual lost, hence r.z_old + ...
     const auto [fresh, lost] = dot_products(scaled_, residual_, image_);
     if (!(fresh > 0.0) || !std::isfinite(fresh)) break;  // lost positive definiteness to round-off
     const double weight = iteration == 0 ? 0.0 : -lost / energy;
-    for_each_offset(unknowns_, [&](std::ptrdiff_t at) {
+    cells_.for_each([&](std::ptrdiff_t at, const auto&) {
       d[at] = weight == 0.0 ? z[at] : z[at] + weight * d[at];
     });
-    ghosts_.exchange(direction_);
-    apply(*grid_, unknowns_, system, direction_, image_);
+    multiply(direction_);
     const auto [curvature, slope] = dot_products(direction_, image_, residual_);
     energy = curvature;
     if (!(energy > 0.0)) break;
     const double step = slope / energy;
-    for_each_offset(unknowns_, [&](std::ptrdiff_t at) {
+    cells_.for_each([&](std::ptrdiff_t at, const auto&) {
       x[at] += step * d[at];
       r[at] -= step * image[at];
     });
@@ -170,30 +208,35 @@ SolveReport PressureSolver<D>::solve(PressureSystem<D>& system, CellField<D>& p,
                                      Hierarchy hierarchy) {
   SolveReport report;
   take_unknowns(system);
-  if (system.constant_free) remove_mean(system.right_side);
+  take_matrix(system);
+  if (system.constant_free) take_right_side(system);
+  for_each_pair(unknowns_, cells_, [&](std::ptrdiff_t at, std::ptrdiff_t here, const auto&) {
+    pressure_[static_cast<std::size_t>(here)] = p.data()[at];
+  });
   bool current = false;
   // The recursive residual drifts from the true one by round-off: restart from the true one until
   // both agree.
   for (int restart = 0; restart < 4 && !report.converged; ++restart) {
-    find_residual(system, p);
+    find_residual(system);
     report.residual = largest(residual_);
     report.converged = report.residual <= (restart > 0 ? tolerance : good_start * tolerance);
     if (report.converged || !std::isfinite(report.residual)) break;
     if (!current && (restart > 0 || !built_ || hierarchy == Hierarchy::fresh)) {
-      multigrid_.build(system);
+      multigrid_.build(cells_, coupling_, diagonal_);
       current = built_ = true;
     }
     report.plain = restart == 3;
-    if (report.plain)
-      iterate(system, p, tolerance, plain_limit, false, report);
-    else
-      iterate(system, p, tolerance, multigrid_limit, true, report);
+    iterate(system.constant_free, tolerance, report.plain ? plain_limit : multigrid_limit,
+            !report.plain, report);
   }
   if (!report.converged) {
-    find_residual(system, p);
+    find_residual(system);
     report.residual = largest(residual_);
     report.converged = report.residual <= tolerance;
   }
+  for_each_pair(unknowns_, cells_, [&](std::ptrdiff_t at, std::ptrdiff_t here, const auto&) {
+    p.data()[at] = pressure_[static_cast<std::size_t>(here)];
+  });
   ghosts_.update(p);
   return report;
 }

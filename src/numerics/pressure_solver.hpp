@@ -38,23 +38,31 @@ class PressureSolver {
   double largest_right_side(PressureSystem<D>& system);
 
  private:
-  bool iterate(const PressureSystem<D>& system, CellField<D>& p, double tolerance, int limit,
-               bool multigrid, SolveReport& report);
-  void find_residual(const PressureSystem<D>& system, CellField<D>& p);
-  void precondition(const PressureSystem<D>& system, bool multigrid);
+  using Values = typename PackedCells<D>::Values;
+
   void take_unknowns(const PressureSystem<D>& system);
-  void remove_mean(CellField<D>& field) const;
+  void take_matrix(const PressureSystem<D>& system);
+  void take_right_side(PressureSystem<D>& system);
+  bool iterate(bool constant_free, double tolerance, int limit, bool multigrid,
+               SolveReport& report);
+  void find_residual(const PressureSystem<D>& system);
+  void precondition(bool constant_free, bool multigrid);
+  void multiply(Values& p);
+  void remove_mean(Values& values) const;
   /// Products of one field with two others, over all ranks.
-  std::array<double, 2> dot_products(const CellField<D>& one, const CellField<D>& first,
-                                     const CellField<D>& second) const;
-  double largest(const CellField<D>& field) const;
+  std::array<double, 2> dot_products(const Values& one, const Values& first,
+                                     const Values& second) const;
+  double largest(const Values& values) const;
 
   const Grid<D>* grid_;
-  Spans unknowns_;
+  Spans unknowns_;  ///< in the grid's arrays
   Ghosts<D> ghosts_;
+  PackedCells<D> cells_;  ///< the same cells, close together: all below is of these
   Multigrid<D> multigrid_;
   bool built_ = false;  ///< is there a hierarchy?
-  CellField<D> residual_, scaled_, direction_, image_;
+  std::array<Values, D> coupling_;
+  Values diagonal_, pressure_, residual_, scaled_, direction_;
+  Values image_;  ///< A times pressure or direction
 };
 
 extern template class PressureSolver<2>;

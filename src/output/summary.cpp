@@ -85,6 +85,7 @@ std::string to_json(const Summary& summary) {
   json["wall time [s]"] = summary.wall_seconds;
   json["CPU time [s]"] = summary.cpu_seconds;
   json["time per phase [s]"] = object_of(summary.phase_seconds);
+  if (!summary.flow_effort.empty()) json["flow"] = object_of(summary.flow_effort);
   json["conservation errors"] = object_of(summary.conservation_errors);
   if (!summary.soil_energy.empty()) json["energy of the soil [J]"] = object_of(summary.soil_energy);
   if (!summary.soil_statics.empty()) json["rest of the soil"] = object_of(summary.soil_statics);

@@ -45,7 +45,8 @@ struct Summary {
   double time = 0.0, end_time = 0.0;               ///< simulated, reached and asked for [s]
   double smallest_step = 0.0, largest_step = 0.0;  ///< [s]
   double wall_seconds = 0.0, cpu_seconds = 0.0;    ///< CPU: all ranks together
-  std::vector<std::pair<std::string, double>> phase_seconds;        ///< wall-clock per phase
+  std::vector<std::pair<std::string, double>> phase_seconds;  ///< wall-clock per phase
+  std::vector<std::pair<std::string, double>> flow_effort;    ///< time of its parts, and counts
   std::vector<std::pair<std::string, double>> conservation_errors;  ///< relative to the start
   std::vector<std::pair<std::string, double>> soil_energy;          ///< work of the soil [J]
   std::vector<std::pair<std::string, double>> soil_statics;         ///< how far from rest, shares

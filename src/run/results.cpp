@@ -168,6 +168,16 @@ std::vector<std::pair<std::string, double>> soil_energy(SoilSolver<D>& soil) {
           {"taken by the scheme", scheme}};
 }
 
+/// What the flow's share of the time went into.
+std::vector<std::pair<std::string, double>> parts_of(const FlowEffort& effort) {
+  return {{"interface [s]", effort.interface},
+          {"momentum [s]", effort.momentum},
+          {"forces [s]", effort.forces},
+          {"pressure [s]", effort.pressure},
+          {"extension [s]", effort.extension},
+          {"multigrid cycles", static_cast<double>(effort.cycles)}};
+}
+
 }  // namespace
 
 template <int D>
@@ -270,6 +280,7 @@ Summary Results<D>::describe(World<D>& world) const {
                            {"soil", effort.soil},
                            {"mapping", effort.mapping},
                            {"output", effort.output}};
+  if (world.flow()) summary.flow_effort = parts_of(world.flow()->effort());
   summary.conservation_errors = conservation_errors(world);
   for (const StageRecord& stage : world.stages())
     if (stage.began >= 0.0)

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "flow/fixed_ground.hpp"
+#include "parallel/stopwatch.hpp"
 #include "run/doubts.hpp"
 
 namespace mudlark {
@@ -15,19 +16,6 @@ std::vector<double> gauge_periods(const CaseOptions& options) {
     if (gauge.every > 0.0) periods.push_back(gauge.every);
   return periods;
 }
-
-/// Adds the wall-clock time of its own life to a sum.
-class Stopwatch {
- public:
-  explicit Stopwatch(double& sum) : sum_(&sum), start_(MPI_Wtime()) {}
-  ~Stopwatch() { *sum_ += MPI_Wtime() - start_; }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-
- private:
-  double* sum_;
-  double start_;
-};
 
 }  // namespace
 
