@@ -172,36 +172,31 @@ void Projection<D>::find_wall_distances(const FaceVector<D>* passes) {
     }
 }
 
-/// Couplings and Dirichlet terms of all faces, and the divergence of the predicted flux. Returns
-/// whether any face of this rank sees a given pressure.
+/// Couplings and Dirichlet terms of all faces. Returns whether any face of this rank sees a given
+/// pressure.
 template <int D>
-bool Projection<D>::assemble_faces(const FaceVector<D>& capacity, const FaceVector<D>& mobility,
-                                   const FaceVector<D>& velocity) {
+bool Projection<D>::assemble_faces(const FaceVector<D>& capacity, const FaceVector<D>& mobility) {
   const Grid<D>& grid = *grid_;
   const double* unknown = unknown_.data();
   double* diagonal = system_.diagonal.data();
-  double* right = system_.right_side.data();
   bool given = false;
   for (int axis = 0; axis < D; ++axis) {
     const std::ptrdiff_t s = grid.stride(axis);
     const double inverse = 1.0 / grid.spacing()[axis];
     const double* theta = capacity[axis].data();
     const double* m = mobility[axis].data();
-    const double* v = velocity[axis].data();
     const double* reach = distance_[axis].data();
     double* coupling = system_.coupling[axis].data();
-    const auto conductance = [&](std::ptrdiff_t at) {
-      return reach[at] > 0.0 ? theta[at] * m[at] * inverse * inverse / reach[at] : 0.0;
-    };
     for_each_offset(*near_, bounding_faces(grid, axis), [&](std::ptrdiff_t at) {
-      const bool joined = unknown[at] > 0.0 && unknown[at - s] > 0.0 && reach[at] > 0.0;
-      coupling[at] = joined ? conductance(at) : 0.0;
-      given = given || (reach[at] > 0.0 && !joined);
+      coupling[at] = reach[at] > 0.0 ? theta[at] * m[at] * inverse * inverse / reach[at] : 0.0;
     });
     for_each_offset(*near_, grid.owned(), [&](std::ptrdiff_t at) {
-      if (unknown[at] == 0.0) return;
-      diagonal[at] += conductance(at) + conductance(at + s);
-      right[at] -= (theta[at + s] * v[at + s] - theta[at] * v[at]) * inverse;
+      if (unknown[at] > 0.0) diagonal[at] += coupling[at] + coupling[at + s];
+    });
+    for_each_offset(*near_, bounding_faces(grid, axis), [&](std::ptrdiff_t at) {
+      if (reach[at] == 0.0 || (unknown[at] > 0.0 && unknown[at - s] > 0.0)) return;
+      coupling[at] = 0.0;
+      given = true;
     });
   }
   return given;
@@ -228,15 +223,17 @@ SolveReport Projection<D>::project(const FaceVector<D>& capacity, const FaceVect
     for_each_offset(*near_, grid.local(), [&](std::ptrdiff_t at) { field.data()[at] = 0.0; });
   };
   clear(risen_);
+  assemble(capacity, mobility, give_way);
   SolveReport report;
   for (int pass = 0; pass < most_passes && !report.converged; ++pass) {
-    const double left = assemble(capacity, mobility, target, give_way, velocity);
+    const double left = find_divergence(capacity, target, give_way, velocity);
     report.residual = left;
     report.converged = left <= (pass == 0 ? good_start * tolerance : tolerance);
     if (report.converged || !std::isfinite(left)) break;
     clear(rise_);
     const SolveReport pass_report =
-        solver_.solve(system_, rise_, std::max(0.1 * tolerance, pass_reduction * left));
+        solver_.solve(system_, rise_, std::max(0.1 * tolerance, pass_reduction * left),
+                      pass == 0 ? Hierarchy::fresh : Hierarchy::kept);
     report.iterations += pass_report.iterations;
     push(mobility, rise_, velocity);
     const double* rise = rise_.data();
@@ -246,7 +243,7 @@ SolveReport Projection<D>::project(const FaceVector<D>& capacity, const FaceVect
     });
   }
   if (!report.converged) {
-    report.residual = assemble(capacity, mobility, target, give_way, velocity);
+    report.residual = find_divergence(capacity, target, give_way, velocity);
     report.converged = report.residual <= tolerance;
   }
   if (!report.converged)
@@ -259,27 +256,45 @@ SolveReport Projection<D>::project(const FaceVector<D>& capacity, const FaceVect
   return report;
 }
 
-/// The system for a further rise of pressure. Returns the largest divergence that is left [1/s],
-/// over all ranks.
+/// The matrix, which is that of every pass. Collective.
 template <int D>
-double Projection<D>::assemble(const FaceVector<D>& capacity, const FaceVector<D>& mobility,
-                               const CellField<D>& target, const CellField<D>& give_way,
-                               const FaceVector<D>& velocity) {
+void Projection<D>::assemble(const FaceVector<D>& capacity, const FaceVector<D>& mobility,
+                             const CellField<D>& give_way) {
   const Grid<D>& grid = *grid_;
   const double* unknown = unknown_.data();
   bool storage = false;
+  double* diagonal = system_.diagonal.data();
   for_each_offset(*near_, grid.owned(), [&](std::ptrdiff_t at) {
-    const double yielding = unknown[at] > 0.0 ? give_way.data()[at] : 0.0;
-    storage = storage || yielding > 0.0;
-    system_.diagonal.data()[at] = yielding;
-    system_.right_side.data()[at] =
-        unknown[at] > 0.0 ? target.data()[at] - yielding * risen_.data()[at] : 0.0;
+    diagonal[at] = unknown[at] > 0.0 ? give_way.data()[at] : 0.0;
+    storage = storage || diagonal[at] > 0.0;
   });
-  const bool given = assemble_faces(capacity, mobility, velocity);
-  const double* diagonal = system_.diagonal.data();
+  const bool given = assemble_faces(capacity, mobility);
   const auto in_system = [&](std::ptrdiff_t at) { return diagonal[at] > 0.0; };
   find_spans(*near_, grid.owned(), in_system, system_.unknowns);
   system_.constant_free = max_over_ranks(grid, given || storage ? 1.0 : 0.0) == 0.0;
+}
+
+/// The right side for a further rise of pressure: what is left of the divergence. Returns the
+/// largest of it [1/s], over all ranks.
+template <int D>
+double Projection<D>::find_divergence(const FaceVector<D>& capacity, const CellField<D>& target,
+                                      const CellField<D>& give_way, const FaceVector<D>& velocity) {
+  const Grid<D>& grid = *grid_;
+  const double* unknown = unknown_.data();
+  double* right = system_.right_side.data();
+  for_each_offset(*near_, grid.owned(), [&](std::ptrdiff_t at) {
+    right[at] =
+        unknown[at] > 0.0 ? target.data()[at] - give_way.data()[at] * risen_.data()[at] : 0.0;
+  });
+  for (int axis = 0; axis < D; ++axis) {
+    const std::ptrdiff_t s = grid.stride(axis);
+    const double inverse = 1.0 / grid.spacing()[axis];
+    const double* theta = capacity[axis].data();
+    const double* v = velocity[axis].data();
+    for_each_offset(*near_, grid.owned(), [&](std::ptrdiff_t at) {
+      if (unknown[at] > 0.0) right[at] -= (theta[at + s] * v[at + s] - theta[at] * v[at]) * inverse;
+    });
+  }
   return solver_.largest_right_side(system_);
 }
 

@@ -58,11 +58,11 @@ class Projection {
   template <class Body>
   void for_each_meniscus(int axis, IndexBox<D> faces, const CellField<D>& suction,
                          Body&& body) const;
-  double assemble(const FaceVector<D>& capacity, const FaceVector<D>& mobility,
-                  const CellField<D>& target, const CellField<D>& give_way,
-                  const FaceVector<D>& velocity);
-  bool assemble_faces(const FaceVector<D>& capacity, const FaceVector<D>& mobility,
-                      const FaceVector<D>& velocity);
+  void assemble(const FaceVector<D>& capacity, const FaceVector<D>& mobility,
+                const CellField<D>& give_way);
+  bool assemble_faces(const FaceVector<D>& capacity, const FaceVector<D>& mobility);
+  double find_divergence(const FaceVector<D>& capacity, const CellField<D>& target,
+                         const CellField<D>& give_way, const FaceVector<D>& velocity);
   void fix_constant(CellField<D>& pressure);
 
   const Grid<D>* grid_;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "numerics/loops.hpp"
+
 namespace mudlark {
 namespace {
 
@@ -10,18 +12,25 @@ template <int D>
 void mirror(const Grid<D>& grid, double* values, int axis, int side, double factor) {
   const IndexBox<D>& owned = grid.owned();
   const int width = owned.upper[axis] - owned.lower[axis];
-  for (int layer = 1; layer <= ghost_layers; ++layer) {
-    const int inside =
-        std::min(layer, width);  // a domain thinner than the ghost layers repeats its last cell
+  // Across the first axis the layers of a row lie close together: row after row, all its layers.
+  for (int first = 1; first <= ghost_layers; first += axis == 0 ? ghost_layers : 1) {
     IndexBox<D> box = grid.local();
-    box.lower[axis] = side == 0 ? owned.lower[axis] - layer : owned.upper[axis] + layer - 1;
+    box.lower[axis] = side == 0 ? owned.lower[axis] - first : owned.upper[axis] + first - 1;
     box.upper[axis] = box.lower[axis] + 1;
+    if (axis == 0) {
+      const std::ptrdiff_t outward = side == 0 ? -1 : 1;
+      for_each_offset(grid, box, [&](std::ptrdiff_t at) {
+        for (int layer = 1; layer <= ghost_layers; ++layer)
+          values[at + outward * (layer - 1)] =
+              factor * values[at - outward * std::min(layer, width)];
+      });
+      continue;
+    }
+    const int inside = std::min(first, width);
     const int source = side == 0 ? owned.lower[axis] + inside - 1 : owned.upper[axis] - inside;
     const std::ptrdiff_t shift = (source - box.lower[axis]) * grid.stride(axis);
-    for_each(box, [&](const Index<D>& index) {
-      const std::ptrdiff_t at = grid.offset(index);
-      values[at] = factor * values[at + shift];
-    });
+    for_each_offset(grid, box,
+                    [&](std::ptrdiff_t at) { values[at] = factor * values[at + shift]; });
   }
 }
 

@@ -4,7 +4,7 @@ namespace mudlark {
 
 template <int D>
 void PackedCells<D>::store(const std::vector<RowPart<D>>& cells,
-                              const std::vector<IndexBox<D>>& asked) {
+                           const std::vector<IndexBox<D>>& asked) {
   rows_.clear(owned());
   for (const RowPart<D>& run : cells) {
     IndexBox<D> block{run.first, run.first};
@@ -50,9 +50,9 @@ void PackedCells<D>::list_layers() {
           MPI_PROC_NULL)
         continue;
       mudlark::for_each(layer(axis, side, false),
-               [&](const Index<D>& cell) { sent_[n].push_back(rows_.find(cell)); });
+                        [&](const Index<D>& cell) { sent_[n].push_back(rows_.find(cell)); });
       mudlark::for_each(layer(axis, side, true),
-               [&](const Index<D>& cell) { received_[n].push_back(rows_.find(cell)); });
+                        [&](const Index<D>& cell) { received_[n].push_back(rows_.find(cell)); });
     }
 }
 

@@ -19,7 +19,7 @@ class PackedCells {
   struct Run : RowPart<D> {
     std::ptrdiff_t at;                           ///< of the first cell
     std::array<std::ptrdiff_t, D> below, above;  ///< from a cell to its neighbours along the axes
-    int colour;                                  ///< of the first cell: is the sum of its indices odd?
+    int colour;  ///< of the first cell: is the sum of its indices odd?
   };
 
   explicit PackedCells(const Partition<D>& partition) : partition_(partition) {}

@@ -44,7 +44,8 @@ class PackedRows {
 
   std::size_t row(const Index<D>& cell) const {
     std::ptrdiff_t number = cell[D - 1] - box_.lower[D - 1];
-    if constexpr (D == 3) number = number * (box_.upper[1] - box_.lower[1]) + cell[1] - box_.lower[1];
+    if constexpr (D == 3)
+      number = number * (box_.upper[1] - box_.lower[1]) + cell[1] - box_.lower[1];
     return static_cast<std::size_t>(number);
   }
 
