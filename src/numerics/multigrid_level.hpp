@@ -37,7 +37,7 @@ class MultigridLevel {
   const PackedCells<D>& packed() const { return packed_; }
   const std::vector<Run>& runs() const { return packed_.runs(); }
 
-  /// Cells of this rank with an unknown; all values are zero until they are given.
+  /// Cells of this rank with an unknown; all values are zero until they are given. Collective.
   void take_unknowns(const std::vector<RowPart<D>>& cells) { store(cells, {}); }
   /// Takes over couplings and excesses of those cells. Collective.
   void assemble();

@@ -39,54 +39,63 @@ IndexBox<D> PackedCells<D>::layer(int axis, int side, bool ghost) const {
   return box;
 }
 
-/// Places of what is sent and received, for all exchanges until the unknowns change.
-template <int D>
-void PackedCells<D>::list_layers() {
-  for (int axis = 0; axis < D; ++axis)
-    for (int side = 0; side < 2; ++side) {
-      const auto n = static_cast<std::size_t>(2 * axis + side);
-      sent_[n].clear(), received_[n].clear();
-      if (partition_.neighbour[static_cast<std::size_t>(axis)][static_cast<std::size_t>(side)] ==
-          MPI_PROC_NULL)
-        continue;
-      mudlark::for_each(layer(axis, side, false),
-                        [&](const Index<D>& cell) { sent_[n].push_back(rows_.find(cell)); });
-      mudlark::for_each(layer(axis, side, true),
-                        [&](const Index<D>& cell) { received_[n].push_back(rows_.find(cell)); });
-    }
-}
-
 /// Messages to and from all neighbours along some axes at a time: none of them waits for another.
+/// What arrives has the length that `receive` has been given.
 template <int D>
-void PackedCells<D>::exchange_along(int first, int last, Values& values) {
+template <class T>
+void PackedCells<D>::swap_layers(int first, int last, const BySide<T>& send, MPI_Datatype type,
+                                 BySide<T>& receive) const {
   std::array<MPI_Request, 4 * D> requests;
   int count = 0;
-  for (int axis = first; axis < last; ++axis)
-    for (int side = 0; side < 2; ++side) {
-      const auto n = static_cast<std::size_t>(2 * axis + side);
-      const int neighbour =
-          partition_.neighbour[static_cast<std::size_t>(axis)][static_cast<std::size_t>(side)];
-      if (neighbour == MPI_PROC_NULL) continue;
-      send_[n].clear();
-      for (const std::ptrdiff_t at : sent_[n])
-        send_[n].push_back(at < 0 ? 0.0 : values[static_cast<std::size_t>(at)]);
-      receive_[n].resize(send_[n].size());
-      const int length = static_cast<int>(send_[n].size());
-      // What leaves at one side arrives at the other: the tag says which, two ranks may share both.
-      MPI_Irecv(receive_[n].data(), length, MPI_DOUBLE, neighbour, 2 * axis + 1 - side,
-                partition_.comm, &requests[static_cast<std::size_t>(count++)]);
-      MPI_Isend(send_[n].data(), length, MPI_DOUBLE, neighbour, 2 * axis + side, partition_.comm,
-                &requests[static_cast<std::size_t>(count++)]);
-    }
-  if (count == 0) return;
+  for_each_neighbour(first, last, [&](int axis, int side, std::size_t n) {
+    const int neighbour =
+        partition_.neighbour[static_cast<std::size_t>(axis)][static_cast<std::size_t>(side)];
+    // What leaves at one side arrives at the other: the tag says which, two ranks may share both.
+    MPI_Irecv(receive[n].data(), static_cast<int>(receive[n].size()), type, neighbour,
+              2 * axis + 1 - side, partition_.comm, &requests[static_cast<std::size_t>(count++)]);
+    MPI_Isend(send[n].data(), static_cast<int>(send[n].size()), type, neighbour, 2 * axis + side,
+              partition_.comm, &requests[static_cast<std::size_t>(count++)]);
+  });
   MPI_Waitall(count, requests.data(), MPI_STATUSES_IGNORE);
-  for (int axis = first; axis < last; ++axis)
-    for (int side = 0; side < 2; ++side) {
-      const auto n = static_cast<std::size_t>(2 * axis + side);
-      for (std::size_t k = 0; k < received_[n].size(); ++k)
-        if (received_[n][k] >= 0)
-          values[static_cast<std::size_t>(received_[n][k])] = receive_[n][k];
-    }
+}
+
+/// Places of what is sent and received, for all exchanges until the cells change: of a layer only
+/// what the receiver stores.
+template <int D>
+void PackedCells<D>::list_layers() {
+  BySide<unsigned char> wanted, asked;
+  for_each_neighbour(0, D, [&](int axis, int side, std::size_t n) {
+    received_[n].clear();
+    mudlark::for_each(layer(axis, side, true), [&](const Index<D>& cell) {
+      const std::ptrdiff_t at = rows_.find(cell);
+      wanted[n].push_back(at >= 0);
+      if (at >= 0) received_[n].push_back(at);
+    });
+    asked[n].resize(wanted[n].size());
+  });
+  swap_layers(0, D, wanted, MPI_UNSIGNED_CHAR, asked);
+  for_each_neighbour(0, D, [&](int axis, int side, std::size_t n) {
+    sent_[n].clear();
+    auto next = asked[n].begin();
+    mudlark::for_each(layer(axis, side, false), [&](const Index<D>& cell) {
+      if (*next++ != 0) sent_[n].push_back(rows_.find(cell));
+    });
+  });
+}
+
+template <int D>
+void PackedCells<D>::exchange_along(int first, int last, Values& values) {
+  for_each_neighbour(first, last, [&](int, int, std::size_t n) {
+    send_[n].clear();
+    for (const std::ptrdiff_t at : sent_[n])
+      send_[n].push_back(at < 0 ? 0.0 : values[static_cast<std::size_t>(at)]);
+    receive_[n].resize(received_[n].size());
+  });
+  swap_layers(first, last, send_, MPI_DOUBLE, receive_);
+  for_each_neighbour(first, last, [&](int, int, std::size_t n) {
+    for (std::size_t k = 0; k < received_[n].size(); ++k)
+      values[static_cast<std::size_t>(received_[n][k])] = receive_[n][k];
+  });
 }
 
 template <int D>

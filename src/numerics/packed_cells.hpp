@@ -24,7 +24,7 @@ class PackedCells {
 
   explicit PackedCells(const Partition<D>& partition) : partition_(partition) {}
 
-  /// Takes other cells, and makes room for blocks that somebody asks for.
+  /// Takes other cells, and makes room for blocks that somebody asks for. Collective.
   void store(const std::vector<RowPart<D>>& cells, const std::vector<IndexBox<D>>& asked = {});
 
   const Partition<D>& partition() const { return partition_; }
@@ -46,16 +46,30 @@ class PackedCells {
   void exchange_with_corners(Values& values);
 
  private:
+  template <class T>
+  using BySide = std::array<std::vector<T>, static_cast<std::size_t>(2 * D)>;
+
   void list_layers();
   void exchange_along(int first, int last, Values& values);
+  template <class T>
+  void swap_layers(int first, int last, const BySide<T>& send, MPI_Datatype type,
+                   BySide<T>& receive) const;
   IndexBox<D> layer(int axis, int side, bool ghost) const;
+  /// Calls body(axis, side, their number) for every side with a neighbour.
+  template <class Body>
+  void for_each_neighbour(int first, int last, Body&& body) const {
+    for (int axis = first; axis < last; ++axis)
+      for (int side = 0; side < 2; ++side)
+        if (partition_.neighbour[static_cast<std::size_t>(axis)][static_cast<std::size_t>(side)] !=
+            MPI_PROC_NULL)
+          body(axis, side, static_cast<std::size_t>(2 * axis + side));
+  }
 
   Partition<D> partition_;
   PackedRows<D> rows_;
   std::vector<Run> runs_;
-  static constexpr std::size_t sides = 2 * D;                       ///< by axis and side:
-  std::array<std::vector<std::ptrdiff_t>, sides> sent_, received_;  ///< places, -1: not stored
-  std::array<Values, sides> send_, receive_;
+  BySide<std::ptrdiff_t> sent_, received_;  ///< places, -1: not stored here
+  BySide<double> send_, receive_;
 };
 
 extern template class PackedCells<2>;

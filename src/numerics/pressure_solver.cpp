@@ -31,7 +31,7 @@ PressureSolver<D>::PressureSolver(const Grid<D>& grid)
 
 template <int D>
 void PressureSolver<D>::take_unknowns(const PressureSystem<D>& system) {
-  if (unknowns_ == system.unknowns) return;
+  if (max_over_ranks(*grid_, unknowns_ == system.unknowns ? 0.0 : 1.0) == 0.0) return;
   unknowns_ = system.unknowns;
   std::vector<RowPart<D>> parts;
   for (const Span& span : unknowns_) {
