@@ -213,7 +213,8 @@ void Solid::begin_step(double time, double dt, bool held) {
 Solid::Vector Solid::given_force(double time) const {
   const auto* motion = std::get_if<FreeSolid>(&options_.motion);
   if (!motion) return Vector::Zero();
-  return mass_ * gravity_ + to_vector(values(motion->force, centre(), time));
+  const Vector frame = to_vector(values(motion->acceleration, centre(), time));
+  return mass_ * (gravity_ + frame) + to_vector(values(motion->force, centre(), time));
 }
 
 Solid::Vector Solid::given_moment(double time) const {

@@ -18,6 +18,7 @@ struct FreeSolid {
   std::array<double, 3> velocity{};              ///< at time zero [m/s]
   std::array<double, 3> angular_velocity{};      ///< at time zero [rad/s]
   std::array<Varying, 3> force{};                ///< at the centre, beside the weight [N]
+  std::array<Varying, 3> acceleration{};         ///< beside gravity, of a frame that moves [m/s2]
   std::array<Varying, 3> moment{};               ///< about the centre [N m]
   std::array<bool, 3> locked{};                  ///< no translation along x, y, z
   std::array<bool, 3> locked_rotation{};         ///< no rotation about x, y, z; plane: the second

@@ -48,6 +48,7 @@ CaseOptions read_case(const std::filesystem::path& file, std::span<const std::st
   finish_stages(stages, options);
   check_boundaries(root, options);
   check_unified(root, options);
+  accelerate_free_bodies(options);
   read_gauges(root, options);
   check_overlaps(reading, grounds);
   if (!root.has("soil") && !options.flow)

@@ -172,7 +172,7 @@ double read_friction(Section& section) {
 
 void read_contact(Section& section, SolidOptions& solid) {
   solid.adhesion = section.number(
-      "adhesion", quantity::stress,
+      "adhesion", quantity::strength,
       not_negative("the shear strength of the contact without pressure"), solid.adhesion);
   solid.sharp_edges = section.choice<bool>("edges", {{"smooth", false}, {"sharp", true}}, false);
 }
@@ -256,6 +256,17 @@ void read_solids(Section& root, CaseOptions& options) {
   }
   // In water bodies stand on and in each other: only what is left of the space counts.
   if (options.soil) check_overlaps(root.reading(), bodies);
+}
+
+void accelerate_free_bodies(CaseOptions& options) {
+  const auto give = [](const std::optional<std::array<Varying, 3>>& acceleration, auto& solids) {
+    if (!acceleration) return;
+    for (auto& solid : solids)
+      if (auto* motion = std::get_if<FreeSolid>(&solid.motion))
+        motion->acceleration = *acceleration;
+  };
+  if (options.soil) give(options.soil->body_acceleration, options.soil->solids);
+  if (options.flow) give(options.flow->body_acceleration, options.flow->solids);
 }
 
 }  // namespace mudlark

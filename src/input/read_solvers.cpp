@@ -178,14 +178,8 @@ void read_flow_solver(Section& root, FlowOptions& flow, std::optional<double> co
           "the bound on what the pressure solver leaves of the divergence, above 0, at most 0.01"),
       flow.pressure_tolerance);
   flow.advection = section.flag("advection", flow.advection);
-  if (section.has("body_acceleration")) {
+  if (section.has("body_acceleration"))
     flow.body_acceleration = section.varying_per_axis("body_acceleration", quantity::acceleration);
-    if (std::any_of(flow.solids.begin(), flow.solids.end(), [](const FlowSolid& solid) {
-          return std::holds_alternative<FreeSolid>(solid.motion);
-        }))
-      section.fail("body_acceleration", "a [[solid]] that moves freely would not feel it",
-                   "Fix the body, or leave the acceleration out.");
-  }
   flow.wall_law = section.choice<WallLaw>("wall_law",
                                           {{"resolved", WallLaw::resolved},
                                            {"werner-wengle", WallLaw::werner_wengle},

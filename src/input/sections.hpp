@@ -89,6 +89,8 @@ void read_waves(Section& root, CaseOptions& options);
 SeaComponents read_sea(Section& wave, bool random);
 /// [[solid]]: after [[water.body]] and [[soil]].
 void read_solids(Section& root, CaseOptions& options);
+/// Free bodies feel the body_acceleration of what they stand in; after the solvers are read.
+void accelerate_free_bodies(CaseOptions& options);
 void read_loads(Section& root, CaseOptions& options);
 /// A side of the domain by its name, `side = "lower_x"`.
 struct SidePart {

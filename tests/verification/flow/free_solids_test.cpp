@@ -63,6 +63,30 @@ TEST(FreeSolids, ACircleFallsAndRisesWithItsAddedMass) {
   }
 }
 
+/// In a full tank that is accelerated sideways, a = (m - rho V)/(m + C rho V) a_frame along the
+/// tank.
+TEST(FreeSolids, ACircleInAShakenTankGoesWithTheFrame) {
+  const double radius = 0.15, width = 2.0, frame = 2.0;
+  const double added = 1.0 + 2.0 / 3.0 * std::pow(pi * radius / width, 2);
+  for (const double ratio : {0.3, 1.0, 2.0}) {
+    const Shape circle{SphereShape{{1.0, 0.0, 1.0}, radius, true}};
+    FreeSolid motion = of_density(ratio * rho);
+    motion.locked[2] = true;
+    motion.acceleration[0] = Varying(frame);
+    Tank<2> tank(free_body(circle, motion), width, 48, 2.0);
+    tank.options.body_acceleration.emplace();
+    (*tank.options.body_acceleration)[0] = Varying(frame);
+    FlowRun<2> run(tank.domain, tank.options);
+    const double dt = 1e-3;
+    for (int step = 0; step < 10; ++step) run.step(dt);
+    const double before = run.flow.solids().velocity(0).velocity[0];
+    for (int step = 0; step < 10; ++step) run.step(dt);
+    const double acceleration = (run.flow.solids().velocity(0).velocity[0] - before) / (10.0 * dt);
+    const double exact = (ratio - 1.0) / (ratio + added) * frame;
+    EXPECT_NEAR(acceleration, exact, 0.018 * frame) << ratio;
+  }
+}
+
 TEST(FreeSolids, ASphereFallsWithItsAddedMass) {
   const Shape sphere{SphereShape{{0.5, 0.5, 0.5}, 0.16}};
   Tank<3> tank(free_body(sphere, of_density(2.0 * rho)), 1.0, 20, 0.95);

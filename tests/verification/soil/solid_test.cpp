@@ -60,8 +60,10 @@ TEST(Solid, PressesAConfinedColumnWithItsModulusTimesTheStrain) {
 
 // A block on tilted soil: it sticks below the angle of friction, and slides with g (sin a - mu cos
 // a) above it.
-TEST(Solid, SlidesDownASlopeWithCoulombsFriction) {
-  for (const double friction : {0.0, 0.3, 0.6, infinity}) {
+/// A block on a slope of 25 degrees; `shaken`: on level ground in a frame with the acceleration
+/// that is g sin 25 degrees along and what g cos lacks upwards.
+void slide(double friction, bool shaken) {
+  {
     DomainOptions domain;
     domain.dimension = 2;
     domain.cells = {80, 8, 1};
@@ -69,12 +71,17 @@ TEST(Solid, SlidesDownASlopeWithCoulombsFriction) {
     domain.walls = {{{Wall::slip, Wall::slip}, {Wall::no_slip, Wall::open}, {}}};
     const double angle = 25.0 / 180.0 * std::numbers::pi, g = 9.81;
     domain.gravity = {g * std::sin(angle), -g * std::cos(angle), 0.0};
+    if (shaken) domain.gravity = {0.0, -g, 0.0};
     const Grid<2> grid(domain, MPI_COMM_WORLD);
     SoilOptions options = make_soil(2, {0, -1, 0}, {4, 1, 0.1}, false);
+    if (shaken)
+      options.body_acceleration = {Varying(g * std::sin(angle)), Varying(0.0),
+                                   Varying(g - g * std::cos(angle))};
     options.bodies[0].law = LinearElasticOptions{1e7, 0.3};
     SolidOptions block = make_solid({BoxShape{{0.5, -infinity, 0.1}, {1.1, infinity, 0.3}}});
     FreeSolid motion;
     motion.density = 2000.0;
+    if (shaken) motion.acceleration = *options.body_acceleration;
     block.motion = motion;
     block.friction = friction;
     options.solids.push_back(block);
@@ -100,6 +107,15 @@ TEST(Solid, SlidesDownASlopeWithCoulombsFriction) {
     EXPECT_NEAR(found, exact, 2e-3 * g);
     EXPECT_NEAR(pressed / count, weight, 1e-2 * weight);
   }
+}
+
+TEST(Solid, SlidesDownASlopeWithCoulombsFriction) {
+  for (const double friction : {0.0, 0.3, 0.6, infinity}) slide(friction, false);
+}
+
+// What shakes the soil shakes the bodies on it.
+TEST(Solid, SlidesInAnAcceleratedFrameAsOnASlope) {
+  for (const double friction : {0.3, 0.6}) slide(friction, true);
 }
 
 // A rough disc rolls: two thirds of the acceleration of one that slides.
