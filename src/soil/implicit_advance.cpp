@@ -106,8 +106,10 @@ void SoilSolver<D>::advance_implicitly(double dt, int cuts) {
   begin_implicit_step(dt);
   const ImplicitSides<D> sides(sides_, side_water_, sums_, dt);
   const ImplicitOutcome outcome = solve_implicitly(implicit_problem(sides, time_ + dt, dt));
-  const double tolerance =
-      options_.step_tolerance * std::max(outcome.largest_way, 1e-9 * grid_->smallest_spacing());
+  // At rest contacts leave ways of their own, which no shorter step makes smaller.
+  const double tolerance = std::max(
+      options_.step_tolerance * std::max(outcome.largest_way, 1e-9 * grid_->smallest_spacing()),
+      outcome.left_by_contacts);
   // Backward Euler: half the change of velocity times the step.
   const double error = 0.5 * dt * outcome.largest_change;
   const bool moving = next_step_ > 0.0;  // the first step has nothing to compare with

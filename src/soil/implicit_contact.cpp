@@ -411,6 +411,15 @@ bool ImplicitContact<D>::misses() const {
 }
 
 template <int D>
+double ImplicitContact<D>::largest_compression() const {
+  double mine = 0.0, all = 0.0;
+  for (std::size_t c = 0; c < forces_.size(); ++c)
+    mine = std::max(mine, norm(forces_[c]) / list_.contacts()[c].stiffness);
+  MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_MAX, problem_->grid.comm());
+  return all;
+}
+
+template <int D>
 void ImplicitContact<D>::begin_pass() {
   for (std::size_t c = 0; c < forces_.size(); ++c)
     list_.contacts()[c].impulse = forces_[c], list_.contacts()[c].seal = seals_[c];

@@ -51,6 +51,8 @@ class ImplicitContact {
 
   /// Does the last evaluation leave ways of edges that matter? Collective.
   bool misses() const;
+  /// What the largest force of a contact presses its spring together by [m]. Collective.
+  double largest_compression() const;
   /// Takes the change of forces since the pass began from what is out of balance.
   void add_change(ImplicitFields<D>& sums) const;
   /// Takes the forces of the last evaluation for those that the next pass starts with. Collective.

@@ -354,6 +354,8 @@ ImplicitOutcome solve_implicit_step(const ImplicitProblem<D>& problem) {
   outcome.largest_way = max_over_ranks(problem.grid, outcome.largest_way);
   outcome.largest_change = max_over_ranks(problem.grid, outcome.largest_change);
   outcome.largest_strain = max_over_ranks(problem.grid, outcome.largest_strain);
+  if (step.contact.any())
+    outcome.left_by_contacts = smallest_change * step.contact.largest_compression();
   return outcome;
 }
 

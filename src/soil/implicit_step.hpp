@@ -35,13 +35,14 @@ struct ImplicitProblem {
 struct ImplicitOutcome {
   bool converged = false;
   bool accepted = false;
-  std::string problem;          ///< why not
-  int iterations = 0;           ///< of Newton's method
-  int linear_iterations = 0;    ///< of the linear solver, all of Newton's together
-  double largest_step = 0.0;    ///< way of a point [m]
-  double largest_way = 0.0;     ///< of a point since its start [m]
-  double largest_change = 0.0;  ///< of a point's velocity against the last step [m/s]
-  double largest_strain = 0.0;  ///< of a component of the displacement gradient [-]
+  std::string problem;            ///< why not
+  int iterations = 0;             ///< of Newton's method
+  int linear_iterations = 0;      ///< of the linear solver, all of Newton's together
+  double largest_step = 0.0;      ///< way of a point [m]
+  double largest_way = 0.0;       ///< of a point since its start [m]
+  double left_by_contacts = 0.0;  ///< way that their passes leave open [m]
+  double largest_change = 0.0;    ///< of a point's velocity against the last step [m/s]
+  double largest_strain = 0.0;    ///< of a component of the displacement gradient [-]
 };
 
 /// Backward Euler without inertia: at the end of the step the stresses balance weight and loads,
