@@ -1,5 +1,5 @@
 """Drawing one state of a case into axes: water as blue shading, fixed porous ground as hatched stone, soil as
-points that fill their share of space. 3D states are cut along the vertical plane in the middle of y."""
+points that fill their share of space. 3D states are cut along a vertical plane, the one in the middle of y unless `Results` got another."""
 import numpy as np
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import LinearSegmentedColormap, Normalize
@@ -9,11 +9,6 @@ GROUND = "#b9a68a"
 SOIL = "#a9793f"
 SOLID = "#6b7178"
 NARROW = 4.0  # domains that are higher or longer than this many times the other way are not drawn to scale
-
-
-def middle_cut(values, axes):
-    """The x-z plane of a field."""
-    return values if axes == 2 else values[:, values.shape[1] // 2]
 
 
 def extent(state):
@@ -33,10 +28,9 @@ def points_in_cut(points, state):
     """Which points lie in the drawn layer of cells; all in 2D."""
     if state is None or len(state.lower) == 2:
         return np.ones(len(points), bool)
-    cells = state.values.shape[1]
-    low = state.lower[1] + (cells // 2) * state.spacing[1]
+    low, high = state.faces(1)[state.layer:state.layer + 2]
     y = points["position"][:, 1]
-    return (y >= low) & (y < low + state.spacing[1])
+    return (y >= low) & (y < high)
 
 
 def draw_water(axes, results, time, points=None):
@@ -46,7 +40,7 @@ def draw_water(axes, results, time, points=None):
     if name is None:
         return None
     state = results.field(name, time)
-    shading = middle_cut(state.values, len(state.lower)).copy()
+    shading = state.plane.copy()
     if points is not None and len(points):
         # No blue between the points; the cells at the surface of the soil keep theirs above it.
         soil = near_points(state, points, reach=0)
@@ -62,7 +56,7 @@ def water_share(results, time):
     if name is None:
         return None
     state = results.field(name, time)
-    return middle_cut(state.values, len(state.lower))
+    return state.plane
 
 
 def only_in_water(results, time, values):
@@ -98,7 +92,7 @@ def draw_ground(axes, results, time, points):
     if "porosity" not in results.field_names:
         return None
     state = results.field("porosity", time)
-    solid = middle_cut(state.values, len(state.lower)) < 0.999
+    solid = state.plane < 0.999
     if points is not None and len(points):
         solid &= ~near_points(state, points, reach=2)  # soil spreads its porosity over the neighbouring cells
     if solid.any():
@@ -115,7 +109,7 @@ def draw_solids(axes, results, time):
     if "solid" not in results.field_names:
         return False
     state = results.field("solid", time)
-    share = middle_cut(state.values, len(state.lower))
+    share = state.plane
     if share.max() < 0.5:
         return False
     left, right, bottom, top = extent(state)

@@ -4,6 +4,7 @@
     python3 -m mudlark.plot DIR --field NAME         one field or point quantity at several times
     python3 -m mudlark.plot DIR --time 2.5           one time only
     python3 -m mudlark.plot DIR --gauge NAME ...     these gauges only
+    python3 -m mudlark.plot DIR --y 0.1              in 3D the plane there; without it the one in the middle
     python3 -m mudlark.plot DIR --out FILE.png       into this file
 
 Without --out the pictures go to DIR/plots. The paths are printed.
@@ -126,7 +127,7 @@ def draw_states(results, times, path, quantity=None):
 def draw_field(results, name, times, path):
     """A grid field in colours; a vector by its length."""
     states = [results.field(name, time) for time in times]
-    cut = [drawing.middle_cut(state.values, len(state.lower)) for state in states]
+    cut = [state.plane for state in states]
     if states[0].values.ndim > len(states[0].lower):
         cut = [np.linalg.norm(values, axis=-1) for values in cut]
     if name == "velocity":
@@ -167,7 +168,7 @@ def save(figure, path, axes=None, used=None):
 
 
 def draw(arguments):
-    results = Results(arguments.folder)
+    results = Results(arguments.folder, arguments.y)
     plots = results.folder / "plots"
     with plt.rc_context(STYLE):
         if arguments.gauge:
@@ -202,6 +203,7 @@ def main(words=None):
     parser.add_argument("folder", type=Path)
     parser.add_argument("--field", help="name of a grid field or of a quantity of the material points")
     parser.add_argument("--time", type=float, help="[s]; the nearest output is drawn")
+    parser.add_argument("--y", type=float, help="[m] of the plane that is drawn of a state in 3D")
     parser.add_argument("--gauge", nargs="+", default=[])
     parser.add_argument("--out", type=Path)
     try:

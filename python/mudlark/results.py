@@ -54,6 +54,19 @@ class FieldState:
     lower: np.ndarray    # corner of the domain, per axis [m]
     spacing: np.ndarray  # cell size per axis [m], the mean one of stretched axes
     stretched: dict      # positions of the faces [m] of stretched axes, by axis
+    y: float = None      # of the plane that pictures show [m], in 3D; None: the middle
+
+    @property
+    def layer(self):
+        """Index along y of the cells in the plane that pictures show."""
+        if self.y is None:
+            return self.values.shape[1] // 2
+        return int(np.clip(np.searchsorted(self.faces(1), self.y, "right") - 1, 0, self.values.shape[1] - 1))
+
+    @property
+    def plane(self):
+        """Values in the x-z plane that pictures show."""
+        return self.values if len(self.spacing) == 2 else self.values[:, self.layer]
 
     @property
     def upper(self):
@@ -90,8 +103,9 @@ class Points:
 
 
 class Results:
-    def __init__(self, folder):
-        self.folder = Path(folder)
+    def __init__(self, folder, y=None):
+        """`y`: of the plane that pictures show in 3D [m]; without it the one in the middle."""
+        self.folder, self.y = Path(folder), y
         if not self.folder.is_dir():
             raise ResultsError(f"{self.folder}: there is no such folder")
 
@@ -184,7 +198,8 @@ class Results:
                 values = values[:, 0]
                 if int(data.attrs["components"]) == 3:
                     values = values[..., [0, 2]]
-            return FieldState(name, _text(data.attrs["unit"]), at, values, lower, spacing, stretched)
+            return FieldState(name, _text(data.attrs["unit"]), at, values, lower, spacing, stretched,
+                              self.y)
 
     def points(self, time=None):
         """The state nearest to `time`; the last one without."""

@@ -23,8 +23,13 @@ assert np.array_equal(state.values.reshape(cells[0], -1)[:, 0], (heights < 2.0).
 velocity = results.field("velocity")
 assert velocity.unit == "m/s" and velocity.values.shape == cells + (dimension,)
 assert np.allclose(velocity.values[..., 0], velocity.centres(0))
-shown = drawing.only_in_water(results, 1.0, drawing.middle_cut(velocity.values[..., 0], dimension))
+shown = drawing.only_in_water(results, 1.0, velocity.plane[..., 0])
 assert np.isfinite(shown[heights < 2.0]).all() and np.isnan(shown[heights > 2.0]).all()
+if dimension == 3:  # pictures show the middle, or the layer of cells at the given y
+    faces = velocity.faces(1)
+    assert velocity.layer == 5
+    for y, layer in ((-1e9, 0), (faces[2] + 1e-6, 2), (1e9, 9)):
+        assert Results(folder, y).field("velocity").layer == layer
 points = results.points(1.0)
 assert list(points["id"]) == [10, 20, 30] and list(points["pore pressure"]) == [1002.0, 2000.0, 3000.0]
 assert points["position"].shape == (3, 3) and np.isclose(points["position"][2, 2], 2.5)
