@@ -66,8 +66,12 @@ std::optional<Units::Reading> Units::read(std::string_view text, const Quantity&
   if (!unit)
     return Reading{{}, fmt::format("\"{}\" is no unit that UDUNITS-2 knows; {}", rest, wish)};
   const Unit target = parse_unit(system_.get(), quantity.unit);
-  if (!same_dimension(unit, target))
-    return Reading{{}, fmt::format("\"{}\" has the wrong dimension; {}", rest, wish)};
+  if (!same_dimension(unit, target)) {
+    const bool minutes = quantity.unit == "s" && (rest == "m" || rest == "M");
+    return Reading{{},
+                   fmt::format("\"{}\" has the wrong dimension{}; {}", rest,
+                               minutes ? ", minutes are \"min\"" : "", wish)};
+  }
   const std::unique_ptr<cv_converter, void (*)(cv_converter*)> convert(
       ut_get_converter(unit.get(), target.get()), cv_free);
   if (!convert) return Reading{{}, fmt::format("\"{}\" cannot be converted; {}", rest, wish)};

@@ -20,6 +20,7 @@ inline constexpr Quantity length{"a length", "m", "\"10 cm\""};
 inline constexpr Quantity time{"a time", "s", "\"2 h\""};
 inline constexpr Quantity pressure{"a pressure", "Pa", "\"400 kPa\""};
 inline constexpr Quantity stress{"a stress", "Pa", "\"-10 kPa\""};
+inline constexpr Quantity strength{"a stress", "Pa", "\"10 kPa\""};
 inline constexpr Quantity stiffness{"a stiffness", "Pa", "\"10 MPa\""};
 inline constexpr Quantity density{"a density", "kg/m3", "\"2.65 g/cm3\""};
 inline constexpr Quantity viscosity{"a dynamic viscosity", "Pa s", "\"1.002e-3 Pa s\""};

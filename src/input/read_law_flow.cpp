@@ -84,7 +84,7 @@ SoilLawOptions read_newtonian(Section& section) {
   law.viscosity =
       section.number("viscosity", quantity::viscosity,
                      not_negative("a viscosity is not negative", "Water has 1e-3 Pa s."));
-  law.tension_cutoff = section.number("tension_cutoff", quantity::stress,
+  law.tension_cutoff = section.number("tension_cutoff", quantity::strength,
                                       not_negative("the largest mean stress, tension positive",
                                                    "0 lets the liquid part as spray does."),
                                       law.tension_cutoff);

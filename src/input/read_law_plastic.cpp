@@ -39,7 +39,7 @@ double read_dilatancy_angle(Section& section, double friction_angle) {
 
 double read_cohesion(Section& section, double friction_angle) {
   const double cohesion = section.number(
-      "cohesion", quantity::stress,
+      "cohesion", quantity::strength,
       not_negative("strength without confinement is not negative", "Clean sand has 0."), 0.0);
   if (cohesion == 0.0 && friction_angle == 0.0)
     section.fail("cohesion", "soil without cohesion and without friction carries no shear at all",
@@ -49,7 +49,7 @@ double read_cohesion(Section& section, double friction_angle) {
 
 double read_tension_cutoff(Section& section, const std::string& what) {
   return section
-      .number_if_set("tension_cutoff", quantity::stress,
+      .number_if_set("tension_cutoff", quantity::strength,
                      not_negative(what + ", tension positive", "Cracked or loose soil has 0."))
       .value_or(std::numeric_limits<double>::infinity());
 }
@@ -97,7 +97,7 @@ SoilLawOptions read_mohr_coulomb(Section& section) {
   if (!softening) return law;
   MohrCoulombOptions::Residual last;
   last.softening = *softening;
-  last.cohesion = section.number("residual_cohesion", quantity::stress,
+  last.cohesion = section.number("residual_cohesion", quantity::strength,
                                  {.lower = 0.0,
                                   .upper = law.cohesion,
                                   .reason = "what is left lies between 0 and the cohesion",
@@ -122,12 +122,12 @@ Options read_undrained(Section& section) {
   law.young_modulus = read_young_modulus(section);
   law.poisson_ratio = read_poisson_ratio(section);
   law.undrained_strength =
-      section.number("undrained_strength", quantity::stress,
+      section.number("undrained_strength", quantity::strength,
                      positive("an undrained strength lies above 0", "Soft clay has 5-25 kPa."));
   const auto softening = read_softening(section, {"residual_strength"});
   if (!softening) return law;
   const double left =
-      section.number("residual_strength", quantity::stress,
+      section.number("residual_strength", quantity::strength,
                      {.lower = 0.0,
                       .upper = law.undrained_strength,
                       .reason = "what is left lies between 0 and the undrained strength",

@@ -152,16 +152,20 @@ void read_drag(Section& section, SoilBody& body, const WaterProperties& water) {
 
 void read_pore_water(Section& section, SoilBody& body, const WaterProperties& water,
                      SoilOptions& soil) {
+  const std::size_t mistakes = section.reading().report.size();
   body.pore_water = section.choice<PoreWater>("pore_water",
                                               {{"two-phase", PoreWater::two_phase},
                                                {"none", PoreWater::none},
                                                {"unified", PoreWater::unified}},
                                               body.pore_water);
+  const bool unknown = section.reading().report.size() > mistakes;
   const bool wet = body.pore_water == PoreWater::two_phase;
   const bool unified = body.pore_water == PoreWater::unified;
   if (unified)
     soil.water_bulk_modulus = water.bulk_modulus.value_or(std::numeric_limits<double>::infinity());
-  if (wet)
+  if (unknown)
+    section.raw("formulation");
+  else if (wet)
     read_formulation(section, water, soil);
   else
     section.forbid("formulation", unified ? "pore_water = \"unified\" has one: that of the flow"

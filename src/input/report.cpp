@@ -35,8 +35,8 @@ void Report::add(const Place& place, const std::string& text) {
 
 void Report::add_impossible(const Place& place, const std::string& name, const std::string& written,
                             const std::string& reason, const std::string& cure) {
-  add(place, fmt::format("{} = {} is not possible\n  ({}).{}{}", name, written, reason,
-                         cure.empty() ? "" : " ", cure));
+  add(place, fmt::format("{} = {} is not possible\n  ({}).{}{}", name, written,
+                         without_full_stop(reason), cure.empty() ? "" : " ", cure));
 }
 
 std::string Report::text() const {
@@ -51,6 +51,11 @@ std::string Report::text() const {
     all += fmt::format("{}: {}", mistake.place.text(), mistake.text);
   }
   return all;
+}
+
+std::string_view without_full_stop(std::string_view text) {
+  if (text.ends_with('.') && !text.ends_with("..")) text.remove_suffix(1);
+  return text;
 }
 
 std::string nearest_word(std::string_view written, std::span<const std::string> known) {

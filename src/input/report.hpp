@@ -30,6 +30,9 @@ class Report {
   std::vector<Mistake> mistakes_;
 };
 
+/// Without the full stop at its end: messages put reasons into brackets.
+std::string_view without_full_stop(std::string_view text);
+
 /// The known word nearest to what was written; empty when none is near (Damerau-Levenshtein
 /// distance).
 std::string nearest_word(std::string_view written, std::span<const std::string> known);

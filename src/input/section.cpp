@@ -46,7 +46,9 @@ void Section::fail(std::string_view key, const std::string& reason, const std::s
 }
 
 void Section::missing(std::string_view key, const std::string& reason) {
-  reading_->report.add(place_, fmt::format("{} is missing\n  ({}).", name_of(key), reason));
+  if (unknown_kind_) return;
+  reading_->report.add(
+      place_, fmt::format("{} is missing\n  ({}).", name_of(key), without_full_stop(reason)));
 }
 
 void Section::forbid(std::string_view key, const std::string& reason) {
@@ -54,6 +56,7 @@ void Section::forbid(std::string_view key, const std::string& reason) {
 }
 
 void Section::finish() {
+  if (unknown_kind_) return;
   for (const Entry& entry : *table_) {
     if (std::find(asked_.begin(), asked_.end(), entry.key) != asked_.end()) continue;
     const std::string near = nearest_word(entry.key, asked_);
@@ -189,6 +192,7 @@ std::size_t Section::word(std::string_view key, const Words& names,
       const std::string near = given && !known ? nearest_word(*given, names) : "";
       fail(key, (known ? "not available yet; available: " : "available: ") + available,
            near.empty() ? "" : "Did you mean " + toml_text(near) + "?");
+      unknown_kind_ = unknown_kind_ || key == "type";
       return result;
     }
     result = static_cast<std::size_t>(found - names.begin());

@@ -147,6 +147,7 @@ class Section {
   Reading* reading_;
   Record* record_;
   std::vector<std::string> asked_;
+  bool unknown_kind_ = false;  ///< `type` is none that exists: which keys it needs nobody knows
 };
 
 }  // namespace mudlark

@@ -18,6 +18,10 @@ constexpr double degree = std::numbers::pi / 180.0;  // [rad]
 constexpr double least_friction = 3.0 * degree;
 /// Dry grains lighter than this are more likely in g/cm3 or t/m3 [kg/m3].
 constexpr double lightest_grains = 500.0, lightest_water = 100.0;
+/// Grains that drain have less.
+constexpr double drained_ratio = 0.4;
+/// Even foam is heavier [kg/m3].
+constexpr double lightest_solid = 10.0;
 /// Of coarse gravel [m/s].
 constexpr double largest_conductivity = 1.0;
 /// Kinematic viscosity of water is 1e-6 m2/s; a dynamic one so small belongs to no liquid [Pa s].
@@ -45,6 +49,15 @@ std::optional<double> young_modulus(const SoilLawOptions& law) {
   return std::visit(
       [](const auto& options) -> std::optional<double> {
         if constexpr (requires { options.young_modulus; }) return options.young_modulus;
+        return {};
+      },
+      law);
+}
+
+std::optional<double> poisson_ratio(const SoilLawOptions& law) {
+  return std::visit(
+      [](const auto& options) -> std::optional<double> {
+        if constexpr (requires { options.poisson_ratio; }) return options.poisson_ratio;
         return {};
       },
       law);
@@ -126,6 +139,17 @@ void doubt_grains(const CaseOptions& options, const SoilBody& body,
         body.name, conductivity));
 }
 
+/// The ratio of undrained soil, where the water is computed that keeps its volume.
+void doubt_volume(const SoilBody& body, std::vector<std::string>& found) {
+  const double ratio = poisson_ratio(body.law).value_or(0.0);
+  if (body.pore_water != PoreWater::unified || ratio <= drained_ratio) return;
+  found.push_back(fmt::format(
+      "soil \"{}\": poisson_ratio = {:g} is that of undrained soil in total stresses. With "
+      "pore_water = \"unified\" the water keeps the volume, and grains that keep it too make noise "
+      "in their stress which brakes what flows. Write that of the drained grains, 0.2 to 0.3.",
+      body.name, ratio));
+}
+
 /// Walls hold soil in tension: what touches one above hangs from it. Whoever says what is there
 /// knows.
 void doubt_ceiling(const CaseOptions& options, const SoilBody& body,
@@ -149,6 +173,7 @@ void doubt_soil(const CaseOptions& options, std::vector<std::string>& found) {
     doubt_stiffness(options, body, found);
     doubt_grains(options, body, found);
     doubt_ceiling(options, body, found);
+    doubt_volume(body, found);
     const double friction = friction_angle(body.law).value_or(0.0);
     if (friction > 0.0 && friction < least_friction)
       found.push_back(fmt::format(
@@ -178,6 +203,53 @@ std::optional<double> water_level(const CaseOptions& options, double x, double y
   return {};
 }
 
+/// Is the soil dry under open water in one of these columns? Height where that water ends [m].
+std::optional<double> water_over_dry_soil(const CaseOptions& options, const SoilBody& body) {
+  const DomainOptions& domain = options.domain;
+  const auto up = static_cast<std::size_t>(domain.dimension - 1);
+  const double step = 0.25 * cell_size(domain, up);
+  const auto any = [](const auto& parts, const Point3& at) {
+    return std::any_of(parts.begin(), parts.end(),
+                       [&](const auto& part) { return part.shape.contains(at); });
+  };
+  constexpr int columns = 24;
+  for (int i = 0; i < columns; ++i)
+    for (int j = 0; j < (domain.dimension == 3 ? columns : 1); ++j) {
+      Point3 at{};
+      at[0] = domain.lower[0] + (i + 0.5) / columns * (domain.upper[0] - domain.lower[0]);
+      if (domain.dimension == 3)
+        at[1] = domain.lower[1] + (j + 0.5) / columns * (domain.upper[1] - domain.lower[1]);
+      std::optional<double> open_water;
+      for (at[2] = domain.upper[up] - 0.5 * step; at[2] > domain.lower[up]; at[2] -= step) {
+        if (any(options.flow->solids, at)) break;
+        const bool ground = any(options.soil->bodies, at) || any(options.flow->porous, at);
+        const bool water = any(options.flow->bodies, at);
+        if (water && !ground) open_water = at[2] - 0.5 * step;
+        if (!ground) continue;
+        if (open_water && !water && body.shape.contains(at)) return open_water;
+        break;  // only the topmost ground of a column
+      }
+    }
+  return {};
+}
+
+/// Water that was drawn down to the bed only: the pores under it are empty, and it falls into them.
+void doubt_pores(const CaseOptions& options, const SoilBody& body,
+                 std::vector<std::string>& found) {
+  const bool meant = body.filling.at_start > 0.0 || body.filling.suction > 0.0;
+  if (body.pore_water == PoreWater::none || body.stage > 0 || meant) return;
+  const std::optional<double> ends = water_over_dry_soil(options, body);
+  if (!ends) return;
+  found.push_back(fmt::format(
+      "soil \"{}\": its pores are empty under open water, which ends at {:.3g} m and falls into "
+      "them when the run starts. Let the shape of the [[water.body]] reach down through the soil: "
+      "in soil it is the water of the pores.{}",
+      body.name, *ends,
+      body.pore_water == PoreWater::unified
+          ? " Dry soil that is meant has initial_saturation or suction."
+          : ""));
+}
+
 /// Level of the water at the start where a wave is made or absorbed, if that is still_level nowhere
 /// along it.
 std::optional<double> other_level(const CaseOptions& options, const WaveZoneOptions& zone,
@@ -201,6 +273,22 @@ std::optional<double> other_level(const CaseOptions& options, const WaveZoneOpti
   return other;
 }
 
+/// A solitary wave whose crest starts so near that much of it has come in before the run starts.
+void doubt_crest(const WaveZoneOptions& zone, std::vector<std::string>& found) {
+  const auto* solitary = std::get_if<SolitaryWave>(&zone.wave);
+  if (!solitary || zone.ramp > 0.0 || !(solitary->height > 0.0)) return;
+  // eta = H sech^2 of K times the distance from the crest (Boussinesq)
+  constexpr double most = 0.1, good = 0.02;
+  const double scale = std::sqrt(0.75 * solitary->height / std::pow(zone.depth, 3));
+  const double share = std::pow(std::cosh(scale * solitary->crest), -2.0);
+  if (share <= most) return;
+  found.push_back(fmt::format(
+      "wave \"{}\": the solitary wave begins with a jolt: at its outer end the level has to stand "
+      "{:.2g} m above still water when the run starts. Its crest starts farther away with crest = "
+      "{:.3g} or less.",
+      zone.name, share * solitary->height, -std::acosh(1.0 / std::sqrt(good)) / scale));
+}
+
 void doubt_wave(const CaseOptions& options, const WaveZoneOptions& zone, double outer, double inner,
                 std::vector<std::string>& found) {
   if (!std::holds_alternative<GivenWave>(zone.wave))
@@ -209,6 +297,7 @@ void doubt_wave(const CaseOptions& options, const WaveZoneOptions& zone, double 
           "wave \"{}\": still_level is {:g} m, and the water there stands at {:.4g} m when the run "
           "starts: it rises or falls to still_level first.",
           zone.name, zone.still_level, *level));
+  doubt_crest(zone, found);
   const auto* regular = std::get_if<RegularWave>(&zone.wave);
   if (!regular) return;
   const auto up = static_cast<std::size_t>(options.domain.dimension - 1);
@@ -321,12 +410,28 @@ void doubt_water(const CaseOptions& options, std::vector<std::string>& found) {
   }
 }
 
+/// Of bodies in soil or in water.
+void doubt_solids(const auto& solids, std::vector<std::string>& found) {
+  for (const auto& solid : solids)
+    if (const auto* motion = std::get_if<FreeSolid>(&solid.motion);
+        motion && motion->density > 0.0 && motion->density < lightest_solid)
+      found.push_back(fmt::format(
+          "solid \"{}\": density = {:g} kg/m3 is hardly any. Concrete has 2400, or \"2.4 g/cm3\".",
+          solid.name, motion->density));
+}
+
 }  // namespace
 
 std::vector<std::string> doubts(const CaseOptions& options) {
   std::vector<std::string> found;
+  if (options.flow)
+    doubt_solids(options.flow->solids, found);
+  else if (options.soil)
+    doubt_solids(options.soil->solids, found);
   if (options.soil) doubt_soil(options, found);
   if (options.flow) doubt_water(options, found);
+  if (options.soil && options.flow && options.coupling.mode != CouplingMode::none)
+    for (const SoilBody& body : options.soil->bodies) doubt_pores(options, body, found);
   if (options.soil && options.flow && options.coupling.mode == CouplingMode::none)
     found.emplace_back(
         "soil and flowing water do not feel each other: coupling.mode is \"none\". Write "

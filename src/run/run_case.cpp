@@ -66,6 +66,20 @@ CaseEstimate estimate_in(const CaseOptions& options, MPI_Comm comm,
     }
   }
   estimate.warnings = world.warnings();
+  if (const auto step = options.time.step;
+      step && estimate.flow_step > 0.0 && *step > estimate.flow_step)
+    estimate.warnings.push_back(fmt::format(
+        "time.step = {:g} s is longer than the water can take when the run starts, {:.3g} s: the "
+        "run stops at a step that is too long. Leave it out, or write max_step, which is shortened "
+        "where that is needed.",
+        *step, estimate.flow_step));
+  constexpr double day = 86400.0;  // [s]
+  if (world.soil() && estimate.cpu_seconds.value_or(0.0) > day)
+    estimate.warnings.push_back(fmt::format(
+        "steps of {:.2g} s would take days of computing. Slow processes take {}.",
+        estimate.soil_step,
+        world.flow() ? "soil_solver.mass_scaling where pore_water is \"unified\""
+                     : "soil_solver.method = \"implicit\", or soil_solver.mass_scaling"));
   estimate.memory = peak_memory(comm);
   return estimate;
 }

@@ -130,6 +130,57 @@ TEST_F(WrongRun, OverridesThatAreWrongNameTheirOption) {
   expect_refused(program({"check", file, "--set", "time.end.more=1"}), "not a table");
 }
 
+TEST_F(WrongRun, WhatFollowsFromAMistakeIsNotReportedBesideIt) {
+  const std::string base = text_of(pond());
+  const auto mistakes = [&](const char* name, const std::string& more) {
+    const fs::path file = write(name, base + more);
+    return mistakes_at(program({"check", file.string()}).output, file.string() + ":");
+  };
+  const auto wave = mistakes(
+      "wave.toml", "[[wave]]\nname = \"sea\"\ntype = \"jonswap\"\nTp = 2\nside = \"lower_x\"\n");
+  ASSERT_EQ(wave.size(), 1u);  // which keys it has depends on the type
+  EXPECT_NE(wave[0].find("wave.type"), std::string::npos) << wave[0];
+  const auto soil = mistakes("soil.toml", R"([[soil]]
+name = "bed"
+shape = { box = { lower = [0, 0], upper = [1, 0.2] } }
+porosity = 0.4
+pore_water = "undrained"
+hydraulic_conductivity = 1e-4
+law = { type = "linear-elastic", young_modulus = 1e7, poisson_ratio = 0.3 }
+)");
+  ASSERT_EQ(soil.size(), 1u);
+  EXPECT_NE(soil[0].find("\"two-phase\", \"none\", \"unified\""), std::string::npos) << soil[0];
+}
+
+TEST_F(WrongRun, AStepThatTheWaterCannotTakeIsWarnedOf) {
+  const std::string file = pond().string();
+  EXPECT_EQ(program({"check", file}).output.find("warning"), std::string::npos);
+  const Result result = program({"check", file, "--set", "time.step=1"});
+  EXPECT_EQ(result.code, 0);
+  EXPECT_NE(result.output.find("warning: time.step = 1 s"), std::string::npos) << result.output;
+}
+
+TEST_F(WrongRun, ExplicitStepsOverMonthsAreWarnedOf) {
+  const std::string file = write("clay.toml", R"([domain]
+upper = [4, 2]
+cells = [40, 20]
+walls = { upper_z = "open" }
+[time]
+end = "30 d"
+[[soil]]
+name = "clay"
+shape = { box = { lower = [0, 0], upper = [4, 1] } }
+porosity = 0.4
+pore_water = "none"
+law = { type = "linear-elastic", young_modulus = "20 MPa", poisson_ratio = 0.3 }
+)")
+                               .string();
+  EXPECT_NE(program({"check", file}).output.find("soil_solver.method = \"implicit\""),
+            std::string::npos);
+  EXPECT_EQ(program({"check", file, "--set", "time.end=1 s"}).output.find("warning"),
+            std::string::npos);
+}
+
 TEST_F(WrongRun, WrongCaseIsRefusedBeforeAnyRankStarts) {
   const fs::path file = wrong_files / "poisson_ratio.toml";
   expect_refused(program({"run", file.string(), "-n", "3"}), "soil.law.poisson_ratio = 0.52");

@@ -38,6 +38,8 @@ TEST(Units, RefuseAWrongDimensionAndSayWhichIsExpected) {
 
 TEST(Units, DoNotTakeAFrequencyForATimeAlthoughUdunitsConvertsReciprocals) {
   EXPECT_NE(problem("5 Hz", quantity::time).find("wrong dimension"), std::string::npos);
+  EXPECT_NE(problem("5 m", quantity::time).find("minutes are \"min\""), std::string::npos);
+  EXPECT_EQ(problem("5 kg", quantity::time).find("minutes"), std::string::npos);
 }
 
 TEST(Units, RefuseUnknownUnitsAndNumbersThatAreNone) {

@@ -33,6 +33,11 @@ TEST(Report, SortsMistakesByLineAndIndentsReasons) {
             "--set y=1: unknown key y");
 }
 
+TEST(Report, PutsReasonsIntoBracketsWithoutTheirFullStop) {
+  EXPECT_EQ(without_full_stop("Unexpected token at position 4."), "Unexpected token at position 4");
+  EXPECT_EQ(without_full_stop("as in ..."), "as in ...");
+}
+
 TEST(Report, EscapesTextsForToml) { EXPECT_EQ(toml_text("a\"b\\c\n"), "\"a\\\"b\\\\c\\u000a\""); }
 
 }  // namespace

@@ -155,13 +155,68 @@ TEST(Doubts, NozzleAboveTheWaterWithoutALevel) {
   EXPECT_TRUE(doubts(options).empty());
 }
 
-TEST(Doubts, OpenWaterAtASideOfAnotherHead) {
+/// Water 1 m deep over 0.5 m of sand with its pores full of it.
+CaseOptions bed() {
   CaseOptions options = sand();
   options.soil->bodies[0].shape.form = BoxShape{{0.0, -1.0, 0.0}, {10.0, 1.0, 0.5}};
   options.soil->bodies[0].pore_water = PoreWater::unified;
   options.coupling.mode = CouplingMode::unified;
   options.soil->water_density = 1000.0, options.soil->water_bulk_modulus = 2e9;
   options.flow = pond().flow;
+  return options;
+}
+
+TEST(Doubts, EmptyPoresUnderOpenWater) {
+  CaseOptions options = bed();
+  EXPECT_TRUE(doubts(options).empty());
+  for (const double foot : {0.5, 0.7}) {  // down to the bed only, and not even so far
+    options.flow->bodies[0].shape.form = BoxShape{{0.0, -1.0, foot}, {10.0, 1.0, 1.0}};
+    expect_doubt(options, {"sand", "empty", foot == 0.5 ? "0.5 m" : "0.7 m", "reach down"});
+  }
+  options.soil->bodies[0].filling.suction = 1000.0;  // whoever says how it is wetted knows
+  EXPECT_TRUE(doubts(options).empty());
+  options.soil->bodies[0].filling.suction = 0.0;
+  FlowSolid plate;
+  plate.name = "plate", plate.shape.form = BoxShape{{-1.0, -1.0, 0.5}, {11.0, 1.0, 0.6}};
+  options.flow->solids.push_back(plate);
+  EXPECT_TRUE(doubts(options).empty());
+}
+
+TEST(Doubts, GrainsThatKeepTheirVolumeInOneWater) {
+  CaseOptions options = bed();
+  std::get<MohrCoulombOptions>(options.soil->bodies[0].law).poisson_ratio = 0.49;
+  expect_doubt(options, {"sand", "0.49", "0.2 to 0.3"});
+  options = sand();
+  std::get<MohrCoulombOptions>(options.soil->bodies[0].law).poisson_ratio = 0.49;
+  EXPECT_TRUE(doubts(options).empty());  // total stresses
+}
+
+TEST(Doubts, BodiesInTonnesPerCubicMetre) {
+  FreeSolid motion;
+  motion.density = 2.4;
+  CaseOptions options = pond();
+  FlowSolid block;
+  block.name = "block", block.shape.form = BoxShape{{1.0, -1.0, 0.5}, {2.0, 1.0, 0.9}};
+  block.motion = motion;
+  options.flow->solids.push_back(block);
+  expect_doubt(options, {"block", "2.4 kg/m3", "2400"});
+  motion.density = 2400.0;
+  options.flow->solids[0].motion = motion;
+  EXPECT_TRUE(doubts(options).empty());
+}
+
+TEST(Doubts, SolitaryWaveThatIsThereAlready) {
+  CaseOptions options = pond();
+  WaveZoneOptions zone = waves(1.0);
+  zone.wave = SolitaryWave{0.2, -1.0};
+  options.flow->waves.push_back(zone);
+  expect_doubt(options, {"sea", "jolt", "crest = -6.83"});
+  std::get<SolitaryWave>(options.flow->waves[0].wave).crest = -6.83;
+  EXPECT_TRUE(doubts(options).empty());
+}
+
+TEST(Doubts, OpenWaterAtASideOfAnotherHead) {
+  CaseOptions options = bed();
   GroundSideOptions side;
   side.name = "side", side.water = GroundSideWater::head, side.value = Varying(0.7);
   options.flow->ground_sides.push_back(side);
