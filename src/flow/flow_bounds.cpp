@@ -20,6 +20,11 @@ constexpr double bound_tolerance = 1e-12;
 /// tolerance.
 constexpr double nothing = 1e-13;
 
+/// Rates of volume into and out of a cell, per volume of a cell [1/s].
+struct InAndOut {
+  double in = 0.0, out = 0.0;
+};
+
 }  // namespace
 
 /// Largest of sum of inflow and sum of outflow per pore volume of a cell [1/s]; only fluxes that
@@ -31,10 +36,10 @@ double FlowSolver<D>::courant_rate() const {
   const double* w = free_water().data();
   const double* theta = free_room().data();
   double fastest = 0.0;
-  for_each_offset(near_, grid.owned(), [&](std::ptrdiff_t at) {
+  const auto sums = [&](std::ptrdiff_t at) {
     const bool all = gas_ || InterfaceAdvection<D>::dilates(w[at], theta[at]);
     const bool wet = gas_ || w[at] > nothing;
-    double in = 0.0, out = 0.0;
+    InAndOut sum;
     for (int axis = 0; axis < D; ++axis) {
       const std::ptrdiff_t s = grid.stride(axis);
       const double inverse = 1.0 / grid.spacing()[axis];
@@ -42,11 +47,24 @@ double FlowSolver<D>::courant_rate() const {
       const double* capacity = capacity_[axis].data();
       const double lower = capacity[at] * v[at] * inverse;
       const double upper = capacity[at + s] * v[at + s] * inverse;
-      if (lower > 0.0 && (all || w[at - s] > nothing)) in += lower;
-      if (upper < 0.0 && (all || w[at + s] > nothing)) in -= upper;
-      if (wet) out += std::max(-lower, 0.0) + std::max(upper, 0.0);
+      if (lower > 0.0 && (all || w[at - s] > nothing)) sum.in += lower;
+      if (upper < 0.0 && (all || w[at + s] > nothing)) sum.in -= upper;
+      if (wet) sum.out += std::max(-lower, 0.0) + std::max(upper, 0.0);
     }
-    if (theta[at] > 0.0) fastest = std::max(fastest, std::max(in, out) / theta[at]);
+    return sum;
+  };
+  const std::vector<SmallCell>& small = solids_.walls().small();
+  const auto before = [](const SmallCell& pair, std::ptrdiff_t at) { return pair.at < at; };
+  for_each_offset(near_, grid.owned(), [&](std::ptrdiff_t at) {
+    InAndOut sum = sums(at);
+    double room = theta[at];
+    // A small cell and its host move as one.
+    const auto pair = std::lower_bound(small.begin(), small.end(), at, before);
+    if (pair != small.end() && pair->at == at) {
+      const InAndOut hosts = sums(pair->host);
+      sum.in += hosts.in, sum.out += hosts.out, room += theta[pair->host];
+    }
+    if (room > 0.0) fastest = std::max(fastest, std::max(sum.in, sum.out) / room);
   });
   return max_over_ranks(grid, fastest);
 }

@@ -1,5 +1,6 @@
 /// The part of the flow solver that knows of bodies.
 #include <algorithm>
+#include <cmath>
 
 #include "flow/flow_checks.hpp"
 #include "flow/flow_solver.hpp"
@@ -29,13 +30,28 @@ void FlowSolver<D>::restore(PorousMedium<D>& medium) {
   find_unknowns();
 }
 
+/// In a state just loaded, small cells hold just their room where they stand alone.
+template <int D>
+void FlowSolver<D>::place_solids(PorousMedium<D>& medium) {
+  if (solids_.empty()) return;
+  const CellField<D>& volume = solids_.open_volume();
+  solids_.fill(medium, [&](const Index<D>& cell, const Index<D>&) {
+    return std::abs(porosity_[cell] - volume[cell]) < 1e-9;
+  });
+  solids_.begin();
+}
+
 template <int D>
 void FlowSolver<D>::move_solids(PorousMedium<D>& medium, double dt) {
   if (!solids_.moving()) return;
   solids_.walls().extend_velocity(velocity_);  // what faces that open now begin with
   hold_sides();
   solids_.move(time_, dt);
-  solids_.fill(medium);
+  // In soil and beside gas small cells are joined to others, as beside bodies at rest.
+  const bool may = !with_ground_ && !gas_;
+  solids_.fill(medium, [&](const Index<D>&, const Index<D>& host) {
+    return may && InterfaceAdvection<D>::dilates(water_[host], porosity_[host]);
+  });
 }
 
 template <int D>
@@ -123,6 +139,7 @@ void FlowSolver<D>::make_friction() {
 }
 
 template void FlowSolver<2>::restore(PorousMedium<2>&);
+template void FlowSolver<2>::place_solids(PorousMedium<2>&);
 template void FlowSolver<2>::move_solids(PorousMedium<2>&, double);
 template void FlowSolver<2>::follow_solids(const PorousMedium<2>&);
 template void FlowSolver<2>::push_solids(std::vector<Solid>&, double) const;
@@ -132,6 +149,7 @@ template SolidLoad FlowSolver<2>::solid_load(std::size_t, const std::optional<Bo
 template SolidLoad FlowSolver<2>::solid_load_ahead(std::size_t, double) const;
 template WallPressure<3> FlowSolver<3>::wall_pressure() const;
 template void FlowSolver<3>::restore(PorousMedium<3>&);
+template void FlowSolver<3>::place_solids(PorousMedium<3>&);
 template void FlowSolver<3>::move_solids(PorousMedium<3>&, double);
 template void FlowSolver<3>::follow_solids(const PorousMedium<3>&);
 template void FlowSolver<3>::push_solids(std::vector<Solid>&, double) const;

@@ -70,7 +70,7 @@ class FlowSolver {
   /// Drained pores keep what the medium's residual saturation says. Before initialise().
   void keep_residual_water() { residual_.emplace(*grid_, options_); }
   /// Room that bodies leave in the medium where they are now: before initialise().
-  void place_solids(PorousMedium<D>& medium) { solids_.fill(medium); }
+  void place_solids(PorousMedium<D>& medium);
   /// What follows from a state just loaded.
   void restore(PorousMedium<D>& medium);
   /// Moves bodies over the coming step, and the room in the medium with them.
@@ -81,7 +81,10 @@ class FlowSolver {
   /// Free bodies are driven by others with their names: what those have of the water's load over
   /// the last step of dt [s], and their velocity for the next one.
   void push_solids(std::vector<Solid>& leaders, double dt) const;
-  void follow_leaders(const std::vector<Solid>& leaders) { solids_.follow(leaders); }
+  void follow_leaders(const std::vector<Solid>& leaders) {
+    solids_.follow(leaders);
+    with_ground_ = true;  // leaders are the soil's
+  }
   /// After move_solids(): puts the leaders a step ahead of the water's bodies.
   void place_leaders(std::vector<Solid>& leaders, double dt) const { solids_.lead(leaders, dt); }
 

@@ -18,6 +18,8 @@ namespace {
 /// Cells with less open volume are joined to a neighbour: water that passes them would dictate the
 /// step to all others.
 constexpr double smallest_volume = 0.1;
+/// No cell smaller than that stands alone: round-off of its water would count.
+constexpr double smallest_standing = 1e-3;
 /// Water that a closing cell may keep when no neighbour can take it, as a share of its size: what a
 /// body leaves that moves by a quarter of a cell.
 constexpr double thickest_film = 0.4;
@@ -67,6 +69,7 @@ SolidBodies<D>::SolidBodies(const Grid<D>& grid, const std::vector<FlowSolid>& o
       next_(options.size()),
       open_(grid),
       cut_(grid),
+      stands_(grid, "small cell that stands alone", "1"),
       walls_(grid),
       ghosts_(grid) {
   for (const FlowSolid& solid : options) {
@@ -181,10 +184,11 @@ Vec<D> SolidBodies<D>::velocity_at(std::size_t body, const Vec<D>& place) const 
 }
 
 template <int D>
-void SolidBodies<D>::fill(PorousMedium<D>& medium) {
+void SolidBodies<D>::fill(PorousMedium<D>& medium, const MayStand& stands) {
   if (empty()) return;
   Space<D>& space = medium.space;
   cut_.find(poses_);
+  if (moving_) find_standing(stands);
   for_each_offset(*grid_, grid_->local(), [&](std::ptrdiff_t at) {
     space.volume.data()[at] = open_.volume.data()[at] * cut_.volume().data()[at];
     for (int a = 0; a < D; ++a)
@@ -244,13 +248,25 @@ std::optional<Index<D>> SolidBodies<D>::host_of(const Index<D>& cell) const {
 }
 
 template <int D>
+void SolidBodies<D>::find_standing(const MayStand& stands) {
+  stands_.fill(0.0);
+  for_each(grid_->owned(), [&](const Index<D>& cell) {
+    const double volume = cut_.volume()[cell];
+    if (volume < smallest_standing || volume >= smallest_volume) return;
+    const auto host = host_of(cell);
+    if (host && stands(cell, *host)) stands_[cell] = 1.0;
+  });
+  ghosts_.update(stands_);
+}
+
+template <int D>
 void SolidBodies<D>::join_small_cells(Space<D>& space) {
   std::swap(joined_, joined_before_);
   joined_.clear();
   const IndexBox<D> box = grid_->local().grown(-1);
   for_each(box, [&](const Index<D>& cell) {
     const double volume = cut_.volume()[cell];
-    if (volume <= 0.0 || volume >= smallest_volume) return;
+    if (volume <= 0.0 || volume >= smallest_volume || stands_[cell] > 0.0) return;
     space.volume[cell] = 0.0;
     if (!is_inside(cell)) return;
     if (const auto host = host_of(cell)) {
@@ -333,6 +349,25 @@ void SolidBodies<D>::hand_on_flux(const JoinedCell<D>& joined, FaceVector<D>& fl
 }
 
 template <int D>
+template <class Body>
+void SolidBodies<D>::for_each_standing(Body&& body) const {
+  for_each(grid_->local().grown(-1), [&](const Index<D>& cell) {
+    if (stands_[cell] == 0.0 || !is_inside(cell)) return;
+    const auto host = host_of(cell);
+    if (host && grid_->local().contains(*host)) body(cell, *host);
+  });
+}
+
+template <int D>
+void SolidBodies<D>::begin() {
+  std::vector<SmallCell>& small = walls_.small();
+  small.clear();
+  for_each_standing([&](const Index<D>& cell, const Index<D>& host) {
+    small.push_back({grid_->offset(cell), grid_->offset(host)});
+  });
+}
+
+template <int D>
 void SolidBodies<D>::regroup(const Space<D>& space, CellField<D>& capacity, CellField<D>& water) {
   const IndexBox<D>& local = grid_->local();
   const IndexBox<D> box = local.grown(-1);
@@ -357,13 +392,18 @@ void SolidBodies<D>::regroup(const Space<D>& space, CellField<D>& capacity, Cell
     if (cut_.volume()[old.cell] > 0.0 && host_now(old.cell) != old.host)
       take_back(old.cell, old.host);
   for_each(box, [&](const Index<D>& cell) {
-    if (space.volume[cell] == 0.0 || capacity[cell] > 0.0 || !is_inside(cell)) return;
+    if (space.volume[cell] == 0.0 || capacity[cell] != 0.0 || !is_inside(cell)) return;
     if (const auto host = host_of(cell)) take_back(cell, *host);
   });
   for_each(box, [&](const Index<D>& cell) {
     if (space.volume[cell] > 0.0 || capacity[cell] == 0.0 || !is_inside(cell)) return;
     if (const auto host = host_of(cell)) pass(cell, *host, 1.0);
   });
+  // Small cells that stand alone and their hosts transport as one: what theirs lack or have too
+  // much of, the host gives or takes.
+  for_each_standing([&](const Index<D>& cell, const Index<D>& host) { pass(cell, host, 1.0); });
+  for_each_standing(take_back);
+  begin();
   check_shut_in(space, capacity, water);
   ghosts_.update(capacity);
   ghosts_.update(water);

@@ -1,6 +1,7 @@
 #pragma once
 /// Impermeable bodies in the water: where they are, what they leave of cells and faces, and what
 /// water sees of them.
+#include <functional>
 #include <optional>
 
 #include "flow/options.hpp"
@@ -23,6 +24,9 @@ class SolidBodies {
  public:
   /// In water of a density [kg/m3].
   SolidBodies(const Grid<D>& grid, const std::vector<FlowSolid>& options, double density);
+
+  /// Whether a small cell keeps its faces beside a host.
+  using MayStand = std::function<bool(const Index<D>& cell, const Index<D>& host)>;
 
   bool empty() const { return options_.empty(); }
   bool moving() const { return moving_; }
@@ -54,8 +58,12 @@ class SolidBodies {
   void collide(double time, double dt);
   /// Of sides and other bodies in the last step [N].
   Eigen::Vector3d collision_force(std::size_t body) const;
-  /// Room that the bodies leave where they are now, and the volume flux of those that move.
-  void fill(PorousMedium<D>& medium);
+  /// Room that the bodies leave where they are now, and the volume flux of those that move. Cells
+  /// too small for water to pass within a step are joined to others, or, where `stands` says so,
+  /// keep their faces and the pressure (docs/decisions/0097).
+  void fill(PorousMedium<D>& medium, const MayStand& stands);
+  /// Those that stand now have room of their own: after fill() of a state just loaded.
+  void begin();
 
   const std::vector<CutCell<D>>& surface() const { return cut_.surface(); }
   /// Share of each cell that is no body, before small cells are joined to others.
@@ -64,7 +72,8 @@ class SolidBodies {
   const WallBand<D>& walls() const { return walls_; }
 
   /// After bodies moved: cells that became too small hand their room and water to their hosts, and
-  /// those that are no longer take theirs back. Volume stays to the last bit but round-off. Throws
+  /// those that are no longer take theirs back; small ones that stand alone share anew with theirs.
+  /// Volume stays to the last bit but round-off. Throws
   /// DivergenceError when water is shut in.
   void regroup(const Space<D>& space, CellField<D>& capacity, CellField<D>& water);
 
@@ -84,6 +93,9 @@ class SolidBodies {
   }
 
  private:
+  void find_standing(const MayStand& stands);
+  template <class Body>
+  void for_each_standing(Body&& body) const;
   void join_small_cells(Space<D>& space);
   bool is_inside(const Index<D>& cell) const;
   std::optional<Index<D>> host_of(const Index<D>& cell) const;
@@ -104,6 +116,7 @@ class SolidBodies {
   bool moving_ = false, no_slip_ = false;
   Space<D> open_;  ///< without bodies
   CutCells<D> cut_;
+  CellField<D> stands_;  ///< 1 in small cells that stand alone
   WallBand<D> walls_;
   Ghosts<D> ghosts_;
   std::vector<JoinedCell<D>> joined_, joined_before_;

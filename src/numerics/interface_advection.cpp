@@ -10,6 +10,9 @@ namespace mudlark {
 namespace {
 /// Below this saturation a cell holds nothing but round-off, above 1 - this nothing but water.
 constexpr double sharp = 1e-12;
+/// What a donor gives: by its plane; spray a mixture; a small cell with a pressure nothing but
+/// water, because its host answers for it (docs/decisions/0097).
+constexpr double by_plane = 0.0, mixture = 1.0, from_host = 2.0;
 }  // namespace
 
 template <int D>
@@ -58,9 +61,12 @@ void InterfaceAdvection<D>::sweep(CellField<D>& water, const CellField<D>& poros
   const double* w = water.data();
   const double* theta = porosity.data();
   double* c = dilates_.data();
-  for_each_offset(*near_, grid_->owned(),
+  for_each_offset(*near_, grid_->owned().grown(1),
                   [&](std::ptrdiff_t at) { c[at] = dilates(w[at], theta[at]) ? 1.0 : 0.0; });
   if (spray == Spray::mixed) find_spray(water, porosity);
+  if (walls)
+    for (const SmallCell& small : walls->small())
+      if (c[small.at] > 0.0) mixed_.data()[small.at] = from_host;
   for (const int axis : axes_in_order<D>(order))
     sweep_axis(water, porosity, flux[axis], axis, dt, walls);
 }
@@ -117,7 +123,7 @@ void InterfaceAdvection<D>::find_spray(const CellField<D>& water, const CellFiel
       for (const std::ptrdiff_t other : {at - grid_->stride(a), at + grid_->stride(a)})
         alone = alone && !dilates(w[other], theta[other]);
     }
-    mixed[at] = alone ? 1.0 : 0.0;
+    mixed[at] = alone ? mixture : by_plane;
   });
 }
 
@@ -140,13 +146,14 @@ void InterfaceAdvection<D>::find_planes(int axis) {
 template <int D>
 double InterfaceAdvection<D>::water_through(double shift, std::ptrdiff_t donor, int axis,
                                             double porosity) const {
+  if (mixed_.data()[donor] == from_host) return shift;
   const double alpha = alpha_.data()[donor];
   if (alpha <= 0.0) return 0.0;
   const double width = std::abs(shift) / porosity;
   double share;  // water in the slab per pore volume of the cell
   if (alpha >= 1.0 - sharp)
     share = width * std::min(alpha, 1.0);
-  else if (alpha <= sharp || mixed_.data()[donor] > 0.0)
+  else if (alpha <= sharp || mixed_.data()[donor] == mixture)
     share = std::min(width, 1.0) * alpha;
   else
     share = water_in_slab(planes_[static_cast<std::size_t>(donor)], axis,

@@ -70,6 +70,7 @@ void WallBand<D>::extend_saturation(const CellField<D>& porosity, CellField<D>& 
   const double* known = known_.data();
   double* alpha = saturation.data();
   const std::ptrdiff_t up = grid.stride(D - 1);
+  for (const SmallCell& small : small_) alpha[small.at] = alpha[small.host];
   double mine = 2.0;
   for (const auto& pass : passes_) {
     for (const Cell& cell : pass) {

@@ -15,6 +15,12 @@ struct WallFace {
   Vec<D> normal, velocity;  ///< [-], [m/s]
 };
 
+/// A small cell and the one that transport takes it for a part of, by their places in the local
+/// arrays.
+struct SmallCell {
+  std::ptrdiff_t at, host;
+};
+
 /// Closed cells and faces beside open ones. Interface normals and upwind velocities are formed as
 /// if the water went on behind the wall: its level continues there, and its velocity does, without
 /// the part that would pass the wall.
@@ -42,6 +48,11 @@ class WallBand {
   }
   bool empty() const { return empty_; }
 
+  /// Small cells with faces of their own, and room that is shared anew with their hosts in each
+  /// step. In the order of their places.
+  std::vector<SmallCell>& small() { return small_; }
+  const std::vector<SmallCell>& small() const { return small_; }
+
   /// Saturation in closed cells; those of open cells need valid ghosts.
   void extend_saturation(const CellField<D>& porosity, CellField<D>& saturation) const;
   /// Velocity of closed faces, ghosts included; those of open faces need valid ghosts.
@@ -58,6 +69,7 @@ class WallBand {
 
   const Grid<D>* grid_;
   Ghosts<D> ghosts_;
+  std::vector<SmallCell> small_;
   bool empty_ = true;
   CellField<D> known_;   ///< 1: open; 2, 3, 4: closed and given in that pass; 0: far from water
   FaceVector<D> layer_;  ///< 0: open; 1, 2: closed, that many faces from an open one; -1: far

@@ -86,9 +86,8 @@ std::vector<std::string> World<D>::warnings() const {
   if (flow_ && flow_->solids().moving())
     all.emplace_back(
         "a [[solid]] moves through water. Where it enters or leaves through the surface single "
-        "steps "
-        "have several times the right force; take means over some of them "
-        "(docs/methods/bodies-in-water.md).");
+        "steps may have twice the right force, and more where water closes over it; take means "
+        "over some of them (docs/methods/bodies-in-water.md).");
   return all;
 }
 

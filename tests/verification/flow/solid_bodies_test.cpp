@@ -158,7 +158,7 @@ TEST(SolidBodies, ADamBreakAgainstAPostKeepsItsVolume) {
 }
 
 /// A wedge whose sides rise by 30 degrees enters with 4 m/s: F = 14.139 rho V^3 t (Zhao & Faltinsen
-/// 1993, table 1). Steps in which a cell closes are above that, but no blows.
+/// 1993, table 1). Steps in which a cell near the surface closes are above that.
 TEST(SolidBodies, AWedgeEntersWater) {
   const double speed = 4.0, exact = 14.139;
   PrescribedSolid motion;
@@ -176,9 +176,12 @@ TEST(SolidBodies, AWedgeEntersWater) {
       shares.push_back(run.flow.solid_load(0, {}).force[2] / (1000.0 * std::pow(speed, 3) * since));
   }
   std::sort(shares.begin(), shares.end());
-  EXPECT_NEAR(shares[shares.size() / 2], exact, 0.25 * exact);
-  EXPECT_GT(shares.front(), 0.0);
-  EXPECT_LT(shares.back(), 7.0 * exact);
+  double mean = 0.0;
+  for (const double share : shares) mean += share / static_cast<double>(shares.size());
+  EXPECT_NEAR(shares[shares.size() / 2], exact, 0.1 * exact);
+  EXPECT_NEAR(mean, exact, 0.15 * exact);
+  EXPECT_GT(shares.front(), 0.5 * exact);
+  EXPECT_LT(shares.back(), 4.0 * exact);
 }
 
 }  // namespace
