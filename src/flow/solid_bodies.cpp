@@ -19,7 +19,7 @@ namespace {
 /// step to all others.
 constexpr double smallest_volume = 0.1;
 /// No cell smaller than that stands alone: round-off of its water would count.
-constexpr double smallest_standing = 1e-3;
+constexpr double smallest_standing = 0.02;
 /// Water that a closing cell may keep when no neighbour can take it, as a share of its size: what a
 /// body leaves that moves by a quarter of a cell.
 constexpr double thickest_film = 0.4;
