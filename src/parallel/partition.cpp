@@ -14,8 +14,11 @@ void check(PetscErrorCode code, const char* what) {
   if (code) throw std::runtime_error(fmt::format("PETSc failed to {} (error {})", what, code));
 }
 
-/// Largest process grid whose blocks are at least `minimum_width` cells wide and as cubic as
-/// possible.
+/// Water and soil lie at the bottom: a cut across the vertical gives some ranks the air. It counts
+/// as this many others of the same area.
+constexpr double vertical_cut = 2.0;
+
+/// Process grid whose blocks are at least `minimum_width` cells wide and have the smallest cuts.
 template <int D>
 Index<D> choose_processes(int size, const Index<D>& cells, int minimum_width) {
   Index<D> best{};
@@ -24,7 +27,7 @@ Index<D> choose_processes(int size, const Index<D>& cells, int minimum_width) {
     double surface = 0.0;
     for (int a = 0; a < D; ++a) {
       if (count[a] > 1 && cells[a] / count[a] < minimum_width) return;
-      double area = count[a] > 1 ? 1.0 : 0.0;
+      double area = count[a] == 1 ? 0.0 : a == D - 1 ? vertical_cut : 1.0;
       for (int b = 0; b < D; ++b)
         if (b != a) area *= static_cast<double>(cells[b]) / count[b];
       surface += area;
