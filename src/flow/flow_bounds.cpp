@@ -54,12 +54,12 @@ double FlowSolver<D>::courant_rate() const {
     return sum;
   };
   const std::vector<SmallCell>& small = solids_.walls().small();
-  const auto before = [](const SmallCell& pair, std::ptrdiff_t at) { return pair.at < at; };
+  auto pair = small.begin();  // both loops go from place to place upwards
   for_each_offset(near_, grid.owned(), [&](std::ptrdiff_t at) {
     InAndOut sum = sums(at);
     double room = theta[at];
     // A small cell and its host move as one.
-    const auto pair = std::lower_bound(small.begin(), small.end(), at, before);
+    while (pair != small.end() && pair->at < at) ++pair;
     if (pair != small.end() && pair->at == at) {
       const InAndOut hosts = sums(pair->host);
       sum.in += hosts.in, sum.out += hosts.out, room += theta[pair->host];

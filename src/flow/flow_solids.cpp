@@ -122,7 +122,6 @@ SolidLoad FlowSolver<D>::solid_load_ahead(std::size_t body, double time) const {
   return load_on(*grid_, solids_, body, {}, wall_pressure(), velocity_, options_.viscosity, time);
 }
 
-template WallPressure<2> FlowSolver<2>::wall_pressure() const;
 /// Of walls and of the surfaces of bodies.
 template <int D>
 void FlowSolver<D>::make_friction() {
@@ -138,6 +137,8 @@ void FlowSolver<D>::make_friction() {
     });
 }
 
+template WallPressure<2> FlowSolver<2>::wall_pressure() const;
+template void FlowSolver<2>::make_friction();
 template void FlowSolver<2>::restore(PorousMedium<2>&);
 template void FlowSolver<2>::place_solids(PorousMedium<2>&);
 template void FlowSolver<2>::move_solids(PorousMedium<2>&, double);
@@ -148,6 +149,7 @@ template double FlowSolver<2>::pressure_at(const Vec<2>&) const;
 template SolidLoad FlowSolver<2>::solid_load(std::size_t, const std::optional<BoxShape>&) const;
 template SolidLoad FlowSolver<2>::solid_load_ahead(std::size_t, double) const;
 template WallPressure<3> FlowSolver<3>::wall_pressure() const;
+template void FlowSolver<3>::make_friction();
 template void FlowSolver<3>::restore(PorousMedium<3>&);
 template void FlowSolver<3>::place_solids(PorousMedium<3>&);
 template void FlowSolver<3>::move_solids(PorousMedium<3>&, double);
@@ -157,7 +159,5 @@ template void FlowSolver<3>::drive_solids(double);
 template double FlowSolver<3>::pressure_at(const Vec<3>&) const;
 template SolidLoad FlowSolver<3>::solid_load(std::size_t, const std::optional<BoxShape>&) const;
 template SolidLoad FlowSolver<3>::solid_load_ahead(std::size_t, double) const;
-template void FlowSolver<2>::make_friction();
-template void FlowSolver<3>::make_friction();
 
 }  // namespace mudlark

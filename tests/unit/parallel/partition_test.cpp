@@ -57,6 +57,13 @@ TEST(Partition, SplitsALongChannelAlongItsLengthOnly) {
   EXPECT_EQ(part.processes, (Index<2>{{part.size, 1}}));
 }
 
+TEST(Partition, CutsTheVerticalOnlyWhereNothingElseIsWideEnough) {
+  EXPECT_EQ(partition<2>({{40, 40}}, {}).processes[1], 1);
+  EXPECT_EQ(partition<3>({{40, 40, 40}}, {}).processes[2], 1);
+  const auto column = partition<2>({{2, 400}}, {});
+  EXPECT_EQ(column.processes, (Index<2>{{1, column.size}}));
+}
+
 /// The box above mine begins where mine ends (or at 0 around a periodic axis), and spans the same
 /// rows.
 template <int D>
