@@ -161,7 +161,7 @@ def save(figure, path, axes=None, used=None):
             above.tick_params(labelbottom=True)
             above.set_xlabel("x [m]")
     path.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(path, dpi=150)
+    figure.savefig(path, dpi=150, bbox_inches="tight")  # equal axes push titles over the edge
     plt.close(figure)
     print(path)
     return path
