@@ -223,12 +223,12 @@ double Sanisand::elastic_share(const State& state, const SymTensor& strain) cons
   return 0.0;
 }
 
-/// Sand that has lost all stress in shear has lost its loose structure: its grains sink until they
-/// touch in a denser one. The volumetric strain until then, 0 where they stay in touch.
-double Sanisand::gap_when_shaken_apart(const State& state) const {
+/// Sand that has lost all stress has lost its loose structure, whether in shear or pulled apart:
+/// its grains sink until they touch in a denser one. The volumetric strain until then, 0 where they
+/// stay in touch.
+double Sanisand::gap_without_structure(double void_ratio) const {
   const double settled = options_.settled_void_ratio;
-  if (settled <= 0.0 || mean_of(state.stress) > least_ * (1.0 + 1e-12)) return 0.0;
-  return std::max(0.0, std::log((1.0 + state.void_ratio) / (1.0 + settled)));
+  return settled > 0.0 ? std::max(0.0, std::log((1.0 + void_ratio) / (1.0 + settled))) : 0.0;
 }
 
 /// Grains that meet again without a stress to start from: an elastic step, no steeper than the
@@ -274,30 +274,30 @@ bool Sanisand::update_point(SymTensor& stress, const SymTensor& strain_increment
   const bool stress_free = mean_of(state.stress) <= 0.0;
   bool apart = still_apart(separation, rest);
   state.void_ratio = (1.0 + start) * std::exp(strain_increment.trace() - rest.trace()) - 1.0;
-  const bool opens = rest.trace() > 0.0;
-  if (!apart && !(opens && mean_of(elastic_stress(state, -1.0 * rest)) <= least_)) {
+  const double opening = std::max(0.0, rest.trace());
+  const bool parts =
+      !apart && opening > 0.0 && mean_of(elastic_stress(state, -1.0 * rest)) <= least_;
+  if (!apart && !parts) {
     if (!stress_free) {
       if (!advance(state, -1.0 * rest)) return false;
-      if (const double gap = gap_when_shaken_apart(state); gap > 0.0) {
-        separation = gap;
-        state.fabric = {};
-      }
     } else if (rest.squared_norm() > 0.0) {
       touch_down(state, -1.0 * rest);
     }
-    apart = separation > 0.0 || (opens && mean_of(state.stress) <= least_ * (1.0 + 1e-12));
-  } else {
-    apart = true;
   }
-  if (apart) {
-    if (separation == 0.0) separation = rest.trace();
-    state.stress = {};
+  const double end = (1.0 + start) * std::exp(strain_increment.trace()) - 1.0;
+  if (parts || (!apart && mean_of(state.stress) <= least_ * (1.0 + 1e-12))) {
+    // Grains that never pressed on each other have no structure to lose.
+    const double gap = stress_free ? 0.0 : gap_without_structure(end);
+    separation = std::max(opening, gap);
+    if (gap > opening) state.fabric = {};
+    apart = separation > 0.0;
   }
+  if (apart) state.stress = {};
   stress = -1.0 * state.stress;
   save(state.back, history);
   save(state.back_start, history + 6);
   save(state.fabric, history + 12);
-  history[void_ratio_at] = (1.0 + start) * std::exp(strain_increment.trace()) - 1.0;
+  history[void_ratio_at] = end;
   return true;
 }
 

@@ -77,7 +77,7 @@ class Sanisand final : public SoilModel {
   State rate(const State& state, const SymTensor& strain) const;
   bool correct(State& state) const;
   double elastic_share(const State& state, const SymTensor& strain) const;
-  double gap_when_shaken_apart(const State& state) const;
+  double gap_without_structure(double void_ratio) const;
   void touch_down(State& state, const SymTensor& strain) const;
   bool advance(State& state, const SymTensor& strain) const;
   bool update_point(SymTensor& stress, const SymTensor& strain, double* history) const;

@@ -190,6 +190,46 @@ TEST(Sanisand, ShakenApartCarriesNothingUntilItHasSettled) {
   EXPECT_NEAR(sand.history[18], 0.85, 0.01);
 }
 
+/// Whether stress goes to nothing in shear or because the sand is pulled apart, the structure is
+/// lost: in one step and in many it then settles to the same void ratio.
+TEST(Sanisand, PulledApartItLosesItsLooseStructureWhateverTheStep) {
+  SanisandOptions options = SanisandOptions::toyoura();
+  options.settled_void_ratio = 0.85;
+  const Sanisand law(options);
+  const double opening = 2e-3, third = opening / 3.0;
+  for (const double shear : {0.0, 1e-3})
+    for (const int steps : {1, 3, 1000}) {
+      TestPoint sand(law, even(100.0));
+      law.initialise_history({&sand.stress, 1}, 0.96 / 1.96, sand.history);
+      sand.strain({third, third, third, 0, 0, shear}, steps);
+      EXPECT_EQ(sand.stress, SymTensor{}) << steps;
+      const double gap = std::log(1.96 / 1.85) + opening;
+      EXPECT_NEAR(sand.history[19], gap, 1e-12) << steps;
+      sand.strain({0, 0, -0.99 * gap, 0, 0, 0}, 100);
+      EXPECT_EQ(sand.stress, SymTensor{}) << steps;
+      sand.strain({0, 0, -0.02 * gap, 0, 0, 0}, 100);
+      EXPECT_LT(sand.stress.zz, -100.0) << steps;
+    }
+}
+
+/// Sand that is placed without stress has not been shaken apart, and sand denser than the settled
+/// one keeps what it has.
+TEST(Sanisand, OnlyLooseSandThatCarriedSomethingLosesItsStructure) {
+  SanisandOptions options = SanisandOptions::toyoura();
+  options.settled_void_ratio = 0.85;
+  const Sanisand law(options);
+  TestPoint placed(law, SymTensor{}), dense(law, even(100.0));
+  law.initialise_history({&placed.stress, 1}, 0.96 / 1.96, placed.history);
+  law.initialise_history({&dense.stress, 1}, 0.8 / 1.8, dense.history);
+  for (TestPoint* sand : {&placed, &dense}) {
+    sand->strain(1e-3 * SymTensor::identity(), 10);
+    EXPECT_EQ(sand->stress, SymTensor{});
+    EXPECT_LE(sand->history[19], 3e-3 * (1.0 + 1e-12));
+    sand->strain(-1.2e-3 * SymTensor::identity(), 10);
+    EXPECT_LT(sand->stress.zz, -1.0);
+  }
+}
+
 TEST(Sanisand, IsAsStiffAgainstWavesAsAgainstASmallUnloading) {
   Sand sand(0.8, 1e5);
   const double modulus = toyoura.wave_modulus({&sand.stress, 1}, sand.history);
