@@ -49,6 +49,7 @@ class SoilInWater {
   /// fixed ground; ghosts included. Collective.
   void find(SoilSolver<D>& soil, const PorousMedium<D>& fixed, PorousMedium<D>& medium) {
     soil.solid_fraction(fraction_, resistance_);
+    medium.moves = true;
     for_each(grid_->local(), [&](const Index<D>& cell) {
       fraction_[cell] /= reach_[cell], resistance_[cell] /= reach_[cell];
       medium.porosity[cell] = std::max(least_porosity, fixed.porosity[cell] - fraction_[cell]);

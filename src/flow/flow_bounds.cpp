@@ -101,22 +101,22 @@ void FlowSolver<D>::check_step(double dt) const {
 }
 
 template <int D>
-void FlowSolver<D>::check_bounds() const {
+void FlowSolver<D>::check_bounds(const NearWater<D>& where) const {
   const Grid<D>& grid = *grid_;
   const double* w = water_.data();
   const double* theta = porosity_.data();
   double worst = bound_tolerance;
-  std::ptrdiff_t where = -1;
-  for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) {
+  std::ptrdiff_t place = -1;
+  for_each_offset(where, grid.owned(), [&](std::ptrdiff_t at) {
     const double beyond = std::max(-w[at], w[at] - theta[at]);
-    if (beyond > worst || std::isnan(beyond)) worst = beyond, where = at;
+    if (beyond > worst || std::isnan(beyond)) worst = beyond, place = at;
   });
   std::string problem;
-  if (where >= 0) {
-    const Vec<D> position = place_of(grid, where);
+  if (place >= 0) {
+    const Vec<D> position = place_of(grid, place);
     problem =
         fmt::format("The water fraction left its bounds at {}: {:.17g} in a porosity of {:.17g}.",
-                    place_text(position), w[where], theta[where]);
+                    place_text(position), w[place], theta[place]);
   }
   throw_divergence_if_any(grid.comm(), problem);
 }
@@ -136,8 +136,8 @@ template double FlowSolver<2>::stable_step(const PorousMedium<2>&) const;
 template double FlowSolver<3>::stable_step(const PorousMedium<3>&) const;
 template void FlowSolver<2>::check_step(double) const;
 template void FlowSolver<3>::check_step(double) const;
-template void FlowSolver<2>::check_bounds() const;
-template void FlowSolver<3>::check_bounds() const;
+template void FlowSolver<2>::check_bounds(const NearWater<2>&) const;
+template void FlowSolver<3>::check_bounds(const NearWater<3>&) const;
 template void FlowSolver<2>::check_finite() const;
 template void FlowSolver<3>::check_finite() const;
 

@@ -33,6 +33,7 @@ FlowSolver<D>::FlowSolver(const Grid<D>& grid, const FlowOptions& options)
       options_(options),
       ghosts_(grid),
       near_(grid),
+      everywhere_(grid),
       interface_(grid, near_),
       momentum_(grid, near_),
       predictor_(grid, near_, options),
@@ -69,13 +70,20 @@ FlowSolver<D>::FlowSolver(const Grid<D>& grid, const FlowOptions& options)
     if (ground.filling.residual > 0.0) keep_residual_water();
 }
 
+/// May anything but the flow's own steps change cells that are not near the water?
+template <int D>
+bool FlowSolver<D>::far_changes(const PorousMedium<D>& medium) const {
+  return medium.moves || solids_.moving() || gas_ || residual_ || ground_sides_ ||
+         !waves_.empty() || !sides_.empty() || !sources_.empty() || !rain_.empty();
+}
+
 /// Ghosts and what follows from W, theta and v; without a medium what grains hold stays as it is.
 template <int D>
-void FlowSolver<D>::update_derived(const PorousMedium<D>* medium) {
-  ghosts_.update(water_);
-  ghosts_.update(porosity_);
-  ghosts_.update(pressure_);
-  ghosts_.update_velocity(velocity_);
+void FlowSolver<D>::update_derived(const NearWater<D>& where, const PorousMedium<D>* medium) {
+  ghosts_.update(water_, where);
+  ghosts_.update(porosity_, where);
+  ghosts_.update(pressure_, where);
+  ghosts_.update_velocity(velocity_, where);
   if (residual_ && medium)
     residual_->hold(water_, porosity_, *medium);
   else if (residual_)
@@ -83,7 +91,7 @@ void FlowSolver<D>::update_derived(const PorousMedium<D>* medium) {
   const double* w = free_water().data();
   const double* theta = free_room().data();
   double* alpha = saturation_.data();
-  for_each_offset(*grid_, grid_->local(), [&](std::ptrdiff_t at) {
+  for_each_offset(where, grid_->local(), [&](std::ptrdiff_t at) {
     alpha[at] = theta[at] > 0.0 ? w[at] / theta[at] : 0.0;
   });
 }
@@ -158,7 +166,7 @@ void FlowSolver<D>::initialise(const PorousMedium<D>& medium) {
   if (ground_sides_) ghosts_.update(porosity_);  // what is behind sides says how they let through
   find_capacity(medium);
   fill_with_bodies(medium);
-  update_derived(&medium);
+  update_derived(everywhere_, &medium);
   find_sides(0.0, &medium);
   find_near();
   initial_volume_ = ledger().present;
@@ -171,8 +179,9 @@ void FlowSolver<D>::initialise(const PorousMedium<D>& medium) {
 }
 
 template <int D>
-void FlowSolver<D>::find_near() {
-  if (!gas_) near_.find(water_, porosity_, velocity_, with_ground_);  // else nothing is far
+void FlowSolver<D>::find_near(const PorousMedium<D>* medium) {
+  if (gas_) return;  // nothing is far
+  near_.find(water_, porosity_, velocity_, with_ground_, !medium || far_changes(*medium));
 }
 
 /// Where pressure acts, for the present water: in the water up to its surface, or everywhere.
@@ -243,17 +252,6 @@ void FlowSolver<D>::project_start(const PorousMedium<D>& medium) {
   flux_.fill(0.0);
 }
 
-template <int D>
-void FlowSolver<D>::find_flux() {
-  for (int a = 0; a < D; ++a) {
-    const double* theta = capacity_[a].data();
-    const double* v = velocity_[a].data();
-    double* u = flux_[a].data();
-    for_each_offset(near_, bounding_faces(*grid_, a),
-                    [&](std::ptrdiff_t at) { u[at] = theta[at] * v[at]; });
-  }
-}
-
 /// Divergence that the water's flux must have: minus that of the grains, plus the share of the
 /// drift between the transported porosity and the medium's that is taken back.
 template <int D>
@@ -286,66 +284,6 @@ void FlowSolver<D>::find_target(const PorousMedium<D>& medium, double dt, double
   }
 }
 
-/// Cells whose contents may change their volume. In the others porosity moves with what passes.
-template <int D>
-void FlowSolver<D>::find_loose() {
-  const double *w = free_water().data(), *theta = free_room().data();
-  double* loose = loose_.data();
-  const bool all_keep = gas_ && !gas_->compressible();
-  for_each_offset(*grid_, grid_->owned(), [&](std::ptrdiff_t at) {
-    loose[at] = all_keep || InterfaceAdvection<D>::dilates(w[at], theta[at]) ? 0.0 : 1.0;
-  });
-}
-
-/// Water and porosity over dt with the present velocity. Cells that may change their
-/// volume (void, or gas that gives way) take the medium's porosity as it is, or what their water
-/// needs until a pressure can push it out: there the dilation term is zero, so nothing is lost or
-/// gained.
-template <int D>
-void FlowSolver<D>::move_water(const PorousMedium<D>& medium, double dt,
-                               const FaceVector<D>* grain_velocity) {
-  const Stopwatch watch(effort_.interface);
-  const Grid<D>& grid = *grid_;
-  find_flux();
-  old_water_.copy_values_from(water_);
-  if (gas_) gas_->begin(water_, porosity_);
-  find_loose();
-  move_porosity(grid, porosity_, flux_, dt, new_porosity_);
-  if (residual_) residual_->go_with_grains(grain_velocity, capacity_, dt, flux_);
-  CellField<D>& moving = residual_ ? residual_->free() : water_;
-  // Spray in gas keeps its planes: mixed, it would spread through the gas as mist.
-  if (ground_sides_) ground_sides_->add_inflow(sides_.inflow());
-  interface_.sweep(moving, free_room(), flux_, dt, step_, gas_ ? Spray::sharp : Spray::mixed,
-                   &solids_.walls(), sides_.empty() && !ground_sides_ ? nullptr : &sides_.inflow());
-  if (residual_) residual_->join(water_);
-  const double* theta = porosity_.data();
-  const double* given = medium.porosity.data();
-  const double* volume = medium.space.volume.data();
-  const double* now = water_.data();
-  const double* loose = loose_.data();
-  double* moved = new_porosity_.data();
-  for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) {
-    if (loose[at] > 0.0)
-      moved[at] = solids_.moving() ? theta[at] : std::max(volume[at] * given[at], now[at]);
-  });
-  if (!sources_.empty())
-    outflow_ -= sum_over_ranks(grid, sources_.refill(time_, dt, loose_, new_porosity_));
-  if (residual_)
-    residual_->follow_porosity(interface_, new_porosity_, water_, porosity_);
-  else
-    interface_.follow_porosity(water_, porosity_, new_porosity_);
-  carried_.copy_values_from(interface_.water_flux());
-  if (residual_) residual_->add_passed(carried_);
-  if (solids_.moving()) follow_solids(medium);
-  check_bounds();
-  add_outflow();
-  if (ground_sides_) ground_sides_->count(carried_, dt);
-  ghosts_.update(water_);
-  ghosts_.update(porosity_);
-  find_capacity(medium);
-  ghosts_.exchange(carried_);
-}
-
 /// With the water that has just moved.
 template <int D>
 void FlowSolver<D>::move_momentum(double dt) {
@@ -375,9 +313,9 @@ void FlowSolver<D>::settle_water(const PorousMedium<D>& medium, double dt,
                     water_);
   if (!rain_.empty())
     outflow_ -= sum_over_ranks(*grid_, rain_.fall(medium.drains, porosity_, time_, dt, water_));
-  update_derived(&medium);
+  update_derived(changing(medium), &medium);
   find_sides(time_ + dt, &medium);
-  find_near();
+  find_near(&medium);
   find_unknowns();
 }
 
@@ -418,7 +356,7 @@ void FlowSolver<D>::make_free_of_divergence(const PorousMedium<D>& medium, doubl
 template <int D>
 void FlowSolver<D>::extend_velocity(const PorousMedium<D>& medium) {
   const Stopwatch watch(effort_.extension);
-  ghosts_.update_velocity(velocity_);
+  ghosts_.update_velocity(velocity_, near_);
   if (!gas_)
     extension_.extend(projection_.unknown(), free_water(), free_room(), capacity_, medium.drains,
                       velocity_);
@@ -468,20 +406,6 @@ template <int D>
 void FlowSolver<D>::hold_sides() {
   sides_.apply(porosity_, water_, velocity_);
   if (ground_sides_) ground_sides_->apply(porosity_, water_, velocity_);
-}
-
-template <int D>
-void FlowSolver<D>::add_outflow() {
-  const Grid<D>& grid = *grid_;
-  double volume = 0.0;
-  for (int axis = 0; axis < D; ++axis)
-    for (int side = 0; side < 2; ++side) {
-      if (!grid.touches(axis, side)) continue;
-      const double* through = carried_[axis].data();
-      for_each_offset(grid, wall_faces(grid, axis, side),
-                      [&](std::ptrdiff_t at) { volume += side == 0 ? -through[at] : through[at]; });
-    }
-  outflow_ += sum_over_ranks(grid, volume) * grid.cell_volume();
 }
 
 template class FlowSolver<2>;

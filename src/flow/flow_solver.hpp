@@ -167,13 +167,13 @@ class FlowSolver {
     if (storage_) storage_->archive(a);
     if (residual_) residual_->archive(a);
     if (ground_sides_) ground_sides_->archive(a);
-    update_derived();
+    update_derived(everywhere_);
     find_sides(time_);
     find_near();
   }
 
  private:
-  void update_derived(const PorousMedium<D>* medium = nullptr);
+  void update_derived(const NearWater<D>& where, const PorousMedium<D>* medium = nullptr);
   void fill_with_bodies(const PorousMedium<D>& medium);
   void move_water(const PorousMedium<D>& medium, double dt, const FaceVector<D>* grain_velocity);
   void move_momentum(double dt);
@@ -182,7 +182,9 @@ class FlowSolver {
   void apply_forces(const PorousMedium<D>& medium, double dt, bool with_grains);
   void make_free_of_divergence(const PorousMedium<D>& medium, double dt, MovingGrains<D>* grains);
   void extend_velocity(const PorousMedium<D>& medium);
-  void find_loose();
+  void find_loose(const NearWater<D>& where);
+  void keep_old_water(const NearWater<D>& where);
+  void keep_carried(const NearWater<D>& where);
   void find_capacity(const PorousMedium<D>& medium);
   void follow_solids(const PorousMedium<D>& medium);
   void find_flux();
@@ -192,7 +194,11 @@ class FlowSolver {
   void find_sides(double time, const PorousMedium<D>* medium = nullptr);
   void hold_sides();
   void project_start(const PorousMedium<D>& medium);
-  void find_near();
+  bool far_changes(const PorousMedium<D>& medium) const;
+  const NearWater<D>& changing(const PorousMedium<D>& medium) const {
+    return far_changes(medium) ? everywhere_ : near_;
+  }
+  void find_near(const PorousMedium<D>* medium = nullptr);
   void find_unknowns();
   /// What moves as water with a sharp surface, and its room.
   const CellField<D>& free_water() const { return residual_ ? residual_->free() : water_; }
@@ -201,7 +207,7 @@ class FlowSolver {
   void project_with_grains(const PorousMedium<D>& medium, const CellField<D>& give_way, double dt,
                            MovingGrains<D>& grains);
   WallPressure<D> wall_pressure() const;
-  void check_bounds() const;
+  void check_bounds(const NearWater<D>& where) const;
   void check_finite() const;
   double courant_rate() const;
   void check_step(double dt) const;
@@ -209,7 +215,8 @@ class FlowSolver {
   const Grid<D>* grid_;
   FlowOptions options_;
   Ghosts<D> ghosts_;
-  NearWater<D> near_;  ///< where the parts below look for something to do
+  NearWater<D> near_;        ///< where the parts below look for something to do
+  NearWater<D> everywhere_;  ///< what is near if farther cells change as well
   InterfaceAdvection<D> interface_;
   MomentumTransport<D> momentum_;
   Predictor<D> predictor_;

@@ -9,6 +9,7 @@ template <int D>
 struct PorousMedium {
   explicit PorousMedium(const Grid<D>& grid);
 
+  bool moves = false;     ///< do grains come and go from step to step?
   Space<D> space;         ///< what rigid bodies leave free *now*
   CellField<D> porosity;  ///< n [-], 1 in open water; what the medium's grains leave of that *now*
   FaceVector<D> grain_flux;  ///< (1-theta_f) v_s [m/s], volume flux of grains and bodies through

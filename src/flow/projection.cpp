@@ -179,7 +179,7 @@ bool Projection<D>::assemble_faces(const FaceVector<D>& capacity, const FaceVect
   const Grid<D>& grid = *grid_;
   const double* unknown = unknown_.data();
   double* diagonal = system_.diagonal.data();
-  bool given = false;
+  std::int64_t given = 0;
   for (int axis = 0; axis < D; ++axis) {
     const std::ptrdiff_t s = grid.stride(axis);
     const double inverse = 1.0 / grid.spacing()[axis];
@@ -188,18 +188,19 @@ bool Projection<D>::assemble_faces(const FaceVector<D>& capacity, const FaceVect
     const double* reach = distance_[axis].data();
     double* coupling = system_.coupling[axis].data();
     for_each_offset(*near_, bounding_faces(grid, axis), [&](std::ptrdiff_t at) {
-      coupling[at] = reach[at] > 0.0 ? theta[at] * m[at] * inverse * inverse / reach[at] : 0.0;
+      const double joined = theta[at] * m[at] * inverse * inverse / reach[at];
+      coupling[at] = reach[at] > 0.0 ? joined : 0.0;
     });
     for_each_offset(*near_, grid.owned(), [&](std::ptrdiff_t at) {
-      if (unknown[at] > 0.0) diagonal[at] += coupling[at] + coupling[at + s];
+      diagonal[at] += unknown[at] > 0.0 ? coupling[at] + coupling[at + s] : 0.0;
     });
     for_each_offset(*near_, bounding_faces(grid, axis), [&](std::ptrdiff_t at) {
-      if (reach[at] == 0.0 || (unknown[at] > 0.0 && unknown[at - s] > 0.0)) return;
-      coupling[at] = 0.0;
-      given = true;
+      const bool both = unknown[at] > 0.0 && unknown[at - s] > 0.0;
+      given += reach[at] > 0.0 && !both ? 1 : 0;
+      coupling[at] = both ? coupling[at] : 0.0;
     });
   }
-  return given;
+  return given > 0;
 }
 
 /// The velocity is corrected with the pressure at hand first, and the system is solved for the rise
@@ -217,7 +218,7 @@ SolveReport Projection<D>::project(const FaceVector<D>& capacity, const FaceVect
   for_each_offset(*near_, grid.local(), [&](std::ptrdiff_t at) {
     if (unknown[at] == 0.0) p[at] = 0.0;  // atmosphere
   });
-  ghosts_.update(pressure);
+  ghosts_.update(pressure, *near_);
   push(mobility, pressure, velocity);
   const auto clear = [&](CellField<D>& field) {
     for_each_offset(*near_, grid.local(), [&](std::ptrdiff_t at) { field.data()[at] = 0.0; });
@@ -282,9 +283,10 @@ double Projection<D>::find_divergence(const FaceVector<D>& capacity, const CellF
   const Grid<D>& grid = *grid_;
   const double* unknown = unknown_.data();
   double* right = system_.right_side.data();
+  const double *wanted = target.data(), *given = give_way.data(), *risen = risen_.data();
   for_each_offset(*near_, grid.owned(), [&](std::ptrdiff_t at) {
-    right[at] =
-        unknown[at] > 0.0 ? target.data()[at] - give_way.data()[at] * risen_.data()[at] : 0.0;
+    const double left = wanted[at] - given[at] * risen[at];
+    right[at] = unknown[at] > 0.0 ? left : 0.0;
   });
   for (int axis = 0; axis < D; ++axis) {
     const std::ptrdiff_t s = grid.stride(axis);
@@ -292,7 +294,8 @@ double Projection<D>::find_divergence(const FaceVector<D>& capacity, const CellF
     const double* theta = capacity[axis].data();
     const double* v = velocity[axis].data();
     for_each_offset(*near_, grid.owned(), [&](std::ptrdiff_t at) {
-      if (unknown[at] > 0.0) right[at] -= (theta[at + s] * v[at + s] - theta[at] * v[at]) * inverse;
+      const double opening = (theta[at + s] * v[at + s] - theta[at] * v[at]) * inverse;
+      right[at] -= unknown[at] > 0.0 ? opening : 0.0;
     });
   }
   return solver_.largest_right_side(system_);
@@ -351,10 +354,10 @@ void Projection<D>::push(const FaceVector<D>& mobility, const CellField<D>& pres
     const double* reach = distance_[axis].data();
     double* v = velocity[axis].data();
     for_each_offset(*near_, bounding_faces(grid, axis), [&](std::ptrdiff_t at) {
-      if (reach[at] == 0.0) return;
       const double above = unknown[at] > 0.0 ? p[at] : 0.0,
                    below = unknown[at - s] > 0.0 ? p[at - s] : 0.0;
-      v[at] -= m[at] * (above - below) * inverse / reach[at];
+      const double change = m[at] * (above - below) * inverse / reach[at];
+      v[at] -= reach[at] > 0.0 ? change : 0.0;
     });
   }
 }

@@ -121,7 +121,8 @@ void ResidualWater<D>::join(CellField<D>& water) const {
 }
 
 template <int D>
-void ResidualWater<D>::follow_porosity(const InterfaceAdvection<D>& interface,
+void ResidualWater<D>::follow_porosity(const NearWater<D>& where,
+                                       const InterfaceAdvection<D>& interface,
                                        const CellField<D>& moved, CellField<D>& water,
                                        CellField<D>& porosity) {
   const double *all = moved.data(), *held = held_.data();
@@ -130,7 +131,7 @@ void ResidualWater<D>::follow_porosity(const InterfaceAdvection<D>& interface,
     room[at] = all[at] - held[at];
     theta[at] = all[at];
   });
-  interface.follow_porosity(free_, room_, moved_);
+  interface.follow_porosity(where, free_, room_, moved_);
   join(water);
 }
 

@@ -1,6 +1,7 @@
 #include "grid/halo.hpp"
 
 #include <array>
+#include <type_traits>
 
 namespace mudlark {
 namespace {
@@ -28,7 +29,8 @@ std::size_t count(const IndexBox<D>& box) {
 
 /// One message along `axis`: values leave towards `side` and arrive from the opposite side.
 template <int D>
-void Halo<D>::shift(std::span<double* const> fields, std::size_t components, int axis, int side,
+template <class T>
+void Halo<D>::shift(std::span<T* const> fields, std::size_t components, int axis, int side,
                     bool add) {
   const auto& neighbour = grid_->partition().neighbour[static_cast<std::size_t>(axis)];
   const int to = neighbour[static_cast<std::size_t>(side)];
@@ -38,25 +40,27 @@ void Halo<D>::shift(std::span<double* const> fields, std::size_t components, int
   const IndexBox<D> out = layers(*grid_, axis, side, add);
   const IndexBox<D> in = layers(*grid_, axis, 1 - side, !add);
   const std::size_t length = count(out) * fields.size() * components;
-  send_.resize(length);
-  receive_.resize(length);
+  send_.resize(length * sizeof(T));
+  receive_.resize(length * sizeof(T));
+  T *sent = reinterpret_cast<T*>(send_.data()), *received = reinterpret_cast<T*>(receive_.data());
   std::size_t k = 0;
   if (to != MPI_PROC_NULL)
-    for (double* field : fields)
+    for (T* field : fields)
       for_each(out, [&](const Index<D>& i) {
-        const double* place = field + static_cast<std::size_t>(grid_->offset(i)) * components;
-        for (std::size_t c = 0; c < components; ++c) send_[k++] = place[c];
+        const T* place = field + static_cast<std::size_t>(grid_->offset(i)) * components;
+        for (std::size_t c = 0; c < components; ++c) sent[k++] = place[c];
       });
-  MPI_Sendrecv(send_.data(), to == MPI_PROC_NULL ? 0 : static_cast<int>(length), MPI_DOUBLE, to, 7,
-               receive_.data(), from == MPI_PROC_NULL ? 0 : static_cast<int>(length), MPI_DOUBLE,
-               from, 7, grid_->comm(), MPI_STATUS_IGNORE);
+  const MPI_Datatype type = std::is_same_v<T, double> ? MPI_DOUBLE : MPI_BYTE;
+  MPI_Sendrecv(sent, to == MPI_PROC_NULL ? 0 : static_cast<int>(length), type, to, 7, received,
+               from == MPI_PROC_NULL ? 0 : static_cast<int>(length), type, from, 7, grid_->comm(),
+               MPI_STATUS_IGNORE);
   if (from == MPI_PROC_NULL) return;
   k = 0;
-  for (double* field : fields)
+  for (T* field : fields)
     for_each(in, [&](const Index<D>& i) {
-      double* place = field + static_cast<std::size_t>(grid_->offset(i)) * components;
+      T* place = field + static_cast<std::size_t>(grid_->offset(i)) * components;
       for (std::size_t c = 0; c < components; ++c)
-        place[c] = add ? place[c] + receive_[k++] : receive_[k++];
+        place[c] = add ? static_cast<T>(place[c] + received[k++]) : received[k++];
     });
 }
 
@@ -64,6 +68,14 @@ template <int D>
 void Halo<D>::exchange(std::span<double* const> fields, std::size_t components) {
   for (int axis = 0; axis < D; ++axis)
     for (int side = 0; side < 2; ++side) shift(fields, components, axis, side, false);
+}
+
+template <int D>
+void Halo<D>::exchange(Field<std::uint8_t, AtCell, D>& marks) {
+  const std::array<std::uint8_t*, 1> one{marks.data()};
+  for (int axis = 0; axis < D; ++axis)
+    for (int side = 0; side < 2; ++side)
+      shift(std::span<std::uint8_t* const>(one), 1, axis, side, false);
 }
 
 template <int D>

@@ -1,5 +1,6 @@
 #pragma once
 /// Exchange of ghost layers between ranks, and the sums over ranks.
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -20,6 +21,8 @@ class Halo {
 
   /// Fills ghost values from their owners. `components` doubles stand side by side at each place.
   void exchange(std::span<double* const> fields, std::size_t components = 1);
+  /// The same with marks of one byte each.
+  void exchange(Field<std::uint8_t, AtCell, D>& marks);
   /// Adds ghost values to their owners' values; afterwards ghosts are stale. (Particles to grid.)
   void add_to_owners(std::span<double* const> fields, std::size_t components = 1);
 
@@ -27,10 +30,11 @@ class Halo {
   void exchange(FaceVector<D>& field);
 
  private:
-  void shift(std::span<double* const> fields, std::size_t components, int axis, int side, bool add);
+  template <class T>
+  void shift(std::span<T* const> fields, std::size_t components, int axis, int side, bool add);
 
   const Grid<D>* grid_;
-  std::vector<double> send_, receive_;
+  std::vector<std::byte> send_, receive_;
 };
 
 extern template class Halo<2>;

@@ -7,6 +7,9 @@
 
 namespace mudlark {
 
+template <int D>
+class NearWater;
+
 /// Behind a wall: cell values are mirrored (no gradient, contact angle 90 degrees); the normal
 /// velocity is odd at closed walls and continues unchanged at open ones; the tangential velocity is
 /// even at slip and open walls and odd at no-slip walls.
@@ -16,7 +19,11 @@ class Ghosts {
   explicit Ghosts(const Grid<D>& grid) : grid_(&grid), halo_(grid) {}
 
   void update(CellField<D>& field);
+  void update(Field<std::uint8_t, AtCell, D>& marks);
   void update_velocity(FaceVector<D>& velocity);
+  /// Behind walls near the water only: farther ghosts keep what they have.
+  void update(CellField<D>& field, const NearWater<D>& near);
+  void update_velocity(FaceVector<D>& velocity, const NearWater<D>& near);
   /// Exchange between ranks only (fluxes, flags at faces).
   void exchange(FaceVector<D>& field) { halo_.exchange(field); }
   void exchange(CellField<D>& field) { halo_.exchange(field); }
@@ -29,9 +36,13 @@ class Ghosts {
   }
 
  private:
-  void mirror_cells(double* values, int axis, int side) const;
-  void fill_normal(double* values, int axis, int side) const;
-  void fill_tangential(double* values, int axis, int side) const;
+  /// `where`: the grid, or what of it is near the water.
+  template <class Where, class T>
+  void mirror_cells(const Where& where, T* values) const;
+  template <class Where>
+  void fill_behind_walls(const Where& where, FaceVector<D>& velocity) const;
+  template <class Where>
+  void fill_normal(const Where& where, double* values, int axis, int side) const;
 
   const Grid<D>* grid_;
   Halo<D> halo_;

@@ -82,7 +82,7 @@ void InterfaceAdvection<D>::sweep_axis(CellField<D>& water, const CellField<D>& 
   for_each_offset(*near_, grid.owned(), [&](std::ptrdiff_t at) {
     alpha[at] = theta[at] > 0.0 ? w[at] / theta[at] : 0.0;
   });
-  ghosts_.update(alpha_);
+  ghosts_.update(alpha_, *near_);
   if (walls) walls->extend_saturation(porosity, alpha_);
   find_planes(axis);
 
@@ -162,38 +162,39 @@ double InterfaceAdvection<D>::water_through(double shift, std::ptrdiff_t donor, 
 }
 
 template <int D>
-void InterfaceAdvection<D>::follow_porosity(CellField<D>& water, CellField<D>& porosity,
+void InterfaceAdvection<D>::follow_porosity(const NearWater<D>& where, CellField<D>& water,
+                                            CellField<D>& porosity,
                                             const CellField<D>& new_porosity) const {
   double* w = water.data();
   double* theta = porosity.data();
   const double* moved = new_porosity.data();
   const double* c = dilates_.data();
-  for_each_offset(*grid_, grid_->owned(), [&](std::ptrdiff_t at) {
+  for_each_offset(where, grid_->owned(), [&](std::ptrdiff_t at) {
     w[at] += c[at] * (moved[at] - theta[at]);
     theta[at] = moved[at];
   });
 }
 
 template <int D>
-void move_porosity(const Grid<D>& grid, const CellField<D>& porosity, const FaceVector<D>& flux,
-                   double dt, CellField<D>& moved) {
+void move_porosity(const Grid<D>& grid, const NearWater<D>& where, const CellField<D>& porosity,
+                   const FaceVector<D>& flux, double dt, CellField<D>& moved) {
   const double* theta = porosity.data();
   double* out = moved.data();
-  for_each_offset(grid, grid.owned(), [&](std::ptrdiff_t at) { out[at] = theta[at]; });
+  for_each_offset(where, grid.owned(), [&](std::ptrdiff_t at) { out[at] = theta[at]; });
   for (int axis = 0; axis < D; ++axis) {
     const double* u = flux[axis].data();
     const std::ptrdiff_t s = grid.stride(axis);
     const double courant = dt / grid.spacing()[axis];
-    for_each_offset(grid, grid.owned(),
+    for_each_offset(where, grid.owned(),
                     [&](std::ptrdiff_t at) { out[at] -= courant * (u[at + s] - u[at]); });
   }
 }
 
 template class InterfaceAdvection<2>;
 template class InterfaceAdvection<3>;
-template void move_porosity(const Grid<2>&, const CellField<2>&, const FaceVector<2>&, double,
-                            CellField<2>&);
-template void move_porosity(const Grid<3>&, const CellField<3>&, const FaceVector<3>&, double,
-                            CellField<3>&);
+template void move_porosity(const Grid<2>&, const NearWater<2>&, const CellField<2>&,
+                            const FaceVector<2>&, double, CellField<2>&);
+template void move_porosity(const Grid<3>&, const NearWater<3>&, const CellField<3>&,
+                            const FaceVector<3>&, double, CellField<3>&);
 
 }  // namespace mudlark

@@ -41,8 +41,8 @@ class InterfaceAdvection {
              double dt, std::int64_t order, Spray spray = Spray::sharp,
              const WallBand<D>* walls = nullptr, const FaceVector<D>* inflow = nullptr);
 
-  /// Fourth sweep: W += c (theta_new - theta); then theta = theta_new. Owned cells.
-  void follow_porosity(CellField<D>& water, CellField<D>& porosity,
+  /// Fourth sweep: W += c (theta_new - theta); then theta = theta_new. Owned cells of `where`.
+  void follow_porosity(const NearWater<D>& where, CellField<D>& water, CellField<D>& porosity,
                        const CellField<D>& new_porosity) const;
 
   /// Water that passed each face during the sweeps, as a share of a cell's volume; on owned and
@@ -71,10 +71,11 @@ class InterfaceAdvection {
   std::array<std::ptrdiff_t, D> strides_{};
 };
 
-/// theta - dt div U on owned cells: the porosity after the flux U has carried the mixture.
+/// theta - dt div U on owned cells of `where`: the porosity after the flux U has carried the
+/// mixture.
 template <int D>
-void move_porosity(const Grid<D>& grid, const CellField<D>& porosity, const FaceVector<D>& flux,
-                   double dt, CellField<D>& moved);
+void move_porosity(const Grid<D>& grid, const NearWater<D>& where, const CellField<D>& porosity,
+                   const FaceVector<D>& flux, double dt, CellField<D>& moved);
 
 extern template class InterfaceAdvection<2>;
 extern template class InterfaceAdvection<3>;

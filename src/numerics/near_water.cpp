@@ -26,7 +26,7 @@ NearWater<D>::NearWater(const Grid<D>& grid)
 template <int D>
 void NearWater<D>::take_all() {
   if (all_) return;
-  near_.fill(1.0);
+  near_.fill(1);
   find_runs();
   all_ = true;
 }
@@ -43,13 +43,13 @@ void NearWater<D>::dilate() {
     const std::ptrdiff_t s = grid.stride(axis);
     box.lower[axis] = grid.owned().lower[axis];
     box.upper[axis] = grid.owned().upper[axis];
-    const double* mark = near_.data();
-    double* out = wider_.data();
+    const std::uint8_t* mark = near_.data();
+    std::uint8_t* out = wider_.data();
     for_each_offset(grid, box, [&](std::ptrdiff_t at) {
-      double largest = mark[at];
+      std::uint8_t any = mark[at];
       for (int n = 1; n <= Cells; ++n)
-        largest = std::max(largest, std::max(mark[at - n * s], mark[at + n * s]));
-      out[at] = largest;
+        any = static_cast<std::uint8_t>(any | mark[at - n * s] | mark[at + n * s]);
+      out[at] = any;
     });
     near_.swap(wider_);
   }
@@ -57,22 +57,33 @@ void NearWater<D>::dilate() {
 }
 
 template <int D>
+template <class Body>
+void NearWater<D>::for_each_candidate(bool anywhere, Body&& body) const {
+  if (anywhere)
+    for_each_offset(*grid_, grid_->local(), body);
+  else
+    for_each_offset(*this, grid_->local(), body);
+}
+
+template <int D>
 void NearWater<D>::find(const CellField<D>& water, const CellField<D>& porosity,
-                        const FaceVector<D>& velocity, bool ground) {
+                        const FaceVector<D>& velocity, bool ground, bool anywhere) {
   const double *w = water.data(), *theta = porosity.data();
-  double *mark = near_.data(), *wet = wet_.data();
-  for_each_offset(*grid_, grid_->local(), [&](std::ptrdiff_t at) {
+  std::uint8_t *mark = near_.data(), *wet = wet_.data();
+  near_.fill(0);
+  for_each_candidate(anywhere, [&](std::ptrdiff_t at) {
     const bool grains = ground && theta[at] < 1.0 - round_off;
-    const double now = w[at] > dust * theta[at] || grains ? 1.0 : 0.0;
-    mark[at] = std::max(now, wet[at]);
-    wet[at] = now;
+    const bool now = w[at] > dust * theta[at] || grains;
+    mark[at] = now || wet[at] ? 1 : 0;
+    wet[at] = now ? 1 : 0;
   });
   dilate<3>();
   mark = near_.data();
   for (int a = 0; a < D; ++a) {
     const double* v = velocity[a].data();
-    for_each_offset(*grid_, grid_->local(),
-                    [&](std::ptrdiff_t at) { mark[at] = v[at] != 0.0 ? 1.0 : mark[at]; });
+    for_each_candidate(anywhere, [&](std::ptrdiff_t at) {
+      if (v[at] != 0.0) mark[at] = 1;
+    });
   }
   dilate<2>();
   find_runs();
@@ -82,19 +93,21 @@ void NearWater<D>::find(const CellField<D>& water, const CellField<D>& porosity,
 template <int D>
 void NearWater<D>::find_runs() {
   runs_.clear();
+  row_starts_.assign(1, 0);
   IndexBox<D> rows = grid_->local();
   const int first = rows.lower[0], end = rows.upper[0];
   rows.upper[0] = first + 1;
-  const double* mark = near_.data();
+  const auto length = static_cast<std::size_t>(end - first);
   for_each(rows, [&](Index<D> index) {
-    std::ptrdiff_t at = grid_->offset(index);
-    for (int& i = index[0]; i < end; ++i, ++at) {
-      if (mark[at] == 0.0) continue;
-      const Run run{index, 0, at};
-      while (i < end && mark[at] > 0.0) ++i, ++at;
-      runs_.push_back(run);
-      runs_.back().end = i;
+    const std::ptrdiff_t start = grid_->offset(index);
+    const std::uint8_t *row = near_.data() + start, *last = row + length, *mark = row;
+    while ((mark = std::find(mark, last, std::uint8_t{1})) != last) {
+      const std::uint8_t* after = std::find(mark, last, std::uint8_t{0});
+      index[0] = first + static_cast<int>(mark - row);
+      runs_.push_back({index, first + static_cast<int>(after - row), start + (mark - row)});
+      mark = after;
     }
+    row_starts_.push_back(runs_.size());
   });
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// The cells near the water, where alone a flow with a free surface has anything to compute.
 #include <algorithm>
+#include <span>
 #include <vector>
 
 #include "numerics/ghosts.hpp"
@@ -27,38 +28,50 @@ class NearWater {
   explicit NearWater(const Grid<D>& grid);
 
   /// Looks for them, all inputs having valid ghosts; with `ground` near cells with less porosity
-  /// than 1 too. Collective.
+  /// than 1 too. Without `anywhere` no water and no velocity is farther than the present near
+  /// cells. Collective.
   void find(const CellField<D>& water, const CellField<D>& porosity, const FaceVector<D>& velocity,
-            bool ground);
+            bool ground, bool anywhere = true);
   /// All cells.
   void take_all();
 
-  const std::vector<Run>& runs() const { return runs_; }
+  /// Those of the rows `lower` to `upper` - 1 along the second axis, in space in one plane.
+  std::span<const Run> runs(int lower, int upper, int plane) const {
+    const IndexBox<D>& local = grid_->local();
+    std::ptrdiff_t row = lower - local.lower[1];
+    if (D == 3) row += (plane - local.lower[D - 1]) * (local.upper[1] - local.lower[1]);
+    const auto* start = row_starts_.data() + row;
+    return {runs_.data() + *start, runs_.data() + *(start + upper - lower)};
+  }
 
  private:
+  template <class Body>
+  void for_each_candidate(bool anywhere, Body&& body) const;
   template <int Cells>
   void dilate();
   void find_runs();
 
   const Grid<D>* grid_;
   Ghosts<D> ghosts_;
-  CellField<D> near_, wider_, wet_;
+  Field<std::uint8_t, AtCell, D> near_, wider_, wet_;
   bool all_ = false;
-  std::vector<Run> runs_;  ///< of this rank's cells and ghosts, row after row
+  std::vector<Run> runs_;                ///< of this rank's cells and ghosts, row after row
+  std::vector<std::size_t> row_starts_;  ///< the first run of each row, and the end of the last
 };
 
 /// Calls body(run, at, first, end) for the piece of every run that lies in the box. Its cells along
 /// the first axis are first ... end - 1, and `at` is the place of the first.
 template <int D, class Body>
 inline void for_each_piece(const NearWater<D>& near, const IndexBox<D>& box, Body&& body) {
-  for (const auto& run : near.runs()) {
-    bool inside = true;
-    for (int a = 1; a < D; ++a)
-      inside = inside && run.first[a] >= box.lower[a] && run.first[a] < box.upper[a];
-    if (!inside) continue;
-    const int first = std::max(run.first[0], box.lower[0]), end = std::min(run.end, box.upper[0]);
-    if (first < end) body(run, run.at + (first - run.first[0]), first, end);
-  }
+  if (box.empty()) return;
+  const int first_plane = D == 3 ? box.lower[D - 1] : 0;
+  const int end_plane = D == 3 ? box.upper[D - 1] : 1;
+  for (int plane = first_plane; plane < end_plane; ++plane)
+    for (const auto& run : near.runs(box.lower[1], box.upper[1], plane)) {
+      const int first = std::max(run.first[0], box.lower[0]);
+      const int end = std::min(run.end, box.upper[0]);
+      if (first < end) body(run, run.at + (first - run.first[0]), first, end);
+    }
 }
 
 /// As the loops over boxes (numerics/loops.hpp), but near the water only.

@@ -86,7 +86,8 @@ void VelocityExtension<D>::mark(int component, const CellField<D>& unknown,
 /// that drives a current (decision 0080).
 template <int D>
 void VelocityExtension<D>::grow_along_normal(int component, const CellField<D>& water,
-                                             const CellField<D>& porosity, double* velocity) {
+                                             const CellField<D>& porosity,
+                                             const CellField<D>& drains, double* velocity) {
   const Grid<D>& grid = *grid_;
   IndexBox<D> box = grid.owned().grown(ghost_layers - 1);
   double* state = state_[component].data();
@@ -95,6 +96,10 @@ void VelocityExtension<D>::grow_along_normal(int component, const CellField<D>& 
   const std::ptrdiff_t sc = grid.stride(component);
   for_each_place(*near_, box, [&](std::ptrdiff_t at, const Index<D>& index) {
     if (state[at] >= 0.0) return;
+    if (state[at] == free_fly && passes_ground(w, theta, drains.data(), at, sc)) {
+      state[at] = flying;
+      return;
+    }
     const double room = theta[at] + theta[at - sc];
     const double held = room > 0.0 ? (w[at] + w[at - sc]) / room : 0.0;
     double sum = 0.0, weights = 0.0, mean = 0.0, count = 0.0;
@@ -149,13 +154,7 @@ void VelocityExtension<D>::extend(const CellField<D>& unknown, const CellField<D
   for (int component = 0; component < D; ++component) {
     double* v = velocity[component].data();
     double* state = state_[component].data();
-    const std::ptrdiff_t s = grid.stride(component);
-    for_each_offset(*near_, grid.owned().grown(ghost_layers - 1), [&](std::ptrdiff_t at) {
-      const bool own = state[at] == free_fly &&
-                       passes_ground(water.data(), porosity.data(), drains.data(), at, s);
-      if (own) state[at] = flying;
-    });
-    grow_along_normal(component, water, porosity, v);
+    grow_along_normal(component, water, porosity, drains, v);
     const auto all = grid.local();
     for_each_offset(*near_, all, [&](std::ptrdiff_t at) {
       if (state[at] == free_fly) state[at] = flying;
@@ -165,33 +164,51 @@ void VelocityExtension<D>::extend(const CellField<D>& unknown, const CellField<D
       if (state[at] < 0.0) v[at] = 0.0;
     });
   }
-  ghosts_.update_velocity(velocity);
+  ghosts_.update_velocity(velocity, *near_);
   keep_from_closing(unknown, water, porosity, drains, velocity);
+}
+
+/// Lists the faces that fly, and the cells beside them that may open but not close.
+template <int D>
+void VelocityExtension<D>::find_flying(const double* unknown, const double* water,
+                                       const double* porosity, const double* drains) {
+  const Grid<D>& grid = *grid_;
+  keeps_open_.clear();
+  for (int axis = 0; axis < D; ++axis) {
+    auto& faces = flies_[static_cast<std::size_t>(axis)];
+    faces.clear();
+    const double* state = state_[axis].data();
+    for_each_offset(*near_, grid.owned_faces(axis), [&](std::ptrdiff_t at) {
+      if (state[at] == flying) faces.push_back(at);
+    });
+  }
+  for_each_offset(*near_, grid.owned(), [&](std::ptrdiff_t at) {
+    if (unknown[at] > 0.0 || drains[at] > 0.0 || water[at] <= dust * porosity[at]) return;
+    bool free = false;
+    for (int axis = 0; axis < D; ++axis) {
+      const double* state = state_[axis].data();
+      free = free || state[at] == flying || state[at + grid.stride(axis)] == flying;
+    }
+    if (free) keeps_open_.push_back(at);
+  });
 }
 
 /// Speed by which each free face of a closing cell has to move outwards so that the cell keeps its
 /// volume.
 template <int D>
-void VelocityExtension<D>::find_squeeze(const double* unknown, const double* water,
-                                        const double* porosity, const double* drains,
-                                        const FaceVector<D>& velocity) {
+double VelocityExtension<D>::squeeze(std::ptrdiff_t at, const FaceVector<D>& velocity) const {
   const Grid<D>& grid = *grid_;
-  double* squeeze = squeeze_.data();
-  for_each_offset(*near_, grid.owned(), [&](std::ptrdiff_t at) {
-    squeeze[at] = 0.0;
-    if (unknown[at] > 0.0 || drains[at] > 0.0 || water[at] <= dust * porosity[at]) return;
-    double opening = 0.0, free_sides = 0.0;
-    for (int axis = 0; axis < D; ++axis) {
-      const double* v = velocity[axis].data();
-      const double* state = state_[axis].data();
-      const std::ptrdiff_t s = grid.stride(axis);
-      const double inverse = 1.0 / grid.width(axis, grid.index_along(axis, at));
-      opening += (v[at + s] - v[at]) * inverse;
-      free_sides +=
-          inverse * ((state[at] == flying ? 1.0 : 0.0) + (state[at + s] == flying ? 1.0 : 0.0));
-    }
-    if (opening < 0.0 && free_sides > 0.0) squeeze[at] = -opening / free_sides;
-  });
+  double opening = 0.0, free_sides = 0.0;
+  for (int axis = 0; axis < D; ++axis) {
+    const double* v = velocity[axis].data();
+    const double* state = state_[axis].data();
+    const std::ptrdiff_t s = grid.stride(axis);
+    const double inverse = 1.0 / grid.width(axis, grid.index_along(axis, at));
+    opening += (v[at + s] - v[at]) * inverse;
+    free_sides +=
+        inverse * ((state[at] == flying ? 1.0 : 0.0) + (state[at + s] == flying ? 1.0 : 0.0));
+  }
+  return opening < 0.0 && free_sides > 0.0 ? -opening / free_sides : 0.0;
 }
 
 template <int D>
@@ -199,27 +216,21 @@ void VelocityExtension<D>::keep_from_closing(const CellField<D>& unknown, const 
                                              const CellField<D>& porosity,
                                              const CellField<D>& drains, FaceVector<D>& velocity) {
   const Grid<D>& grid = *grid_;
-  double flying_faces = 0.0;
-  for (int axis = 0; axis < D; ++axis) {
-    const double* state = state_[axis].data();
-    for_each_offset(*near_, grid.owned(),
-                    [&](std::ptrdiff_t at) { flying_faces += state[at] == flying ? 1.0 : 0.0; });
-  }
-  if (max_over_ranks(grid, flying_faces) == 0.0) return;
   ghosts_.exchange(state_);
+  find_flying(unknown.data(), water.data(), porosity.data(), drains.data());
+  if (max_over_ranks(grid, keeps_open_.empty() ? 0.0 : 1.0) == 0.0) return;
+  double* squeezed = squeeze_.data();
+  for_each_offset(*near_, grid.local(), [&](std::ptrdiff_t at) { squeezed[at] = 0.0; });
   for (int pass = 0; pass < 3; ++pass) {
-    find_squeeze(unknown.data(), water.data(), porosity.data(), drains.data(), velocity);
-    ghosts_.update(squeeze_);
-    const double* squeeze = squeeze_.data();
+    for (const std::ptrdiff_t at : keeps_open_) squeezed[at] = squeeze(at, velocity);
+    ghosts_.update(squeeze_, *near_);
     for (int axis = 0; axis < D; ++axis) {
       double* v = velocity[axis].data();
-      const double* state = state_[axis].data();
       const std::ptrdiff_t s = grid.stride(axis);
-      for_each_offset(*near_, grid.owned_faces(axis), [&](std::ptrdiff_t at) {
-        if (state[at] == flying) v[at] += squeeze[at - s] - squeeze[at];
-      });
+      for (const std::ptrdiff_t at : flies_[static_cast<std::size_t>(axis)])
+        v[at] += squeezed[at - s] - squeezed[at];
     }
-    ghosts_.update_velocity(velocity);
+    ghosts_.update_velocity(velocity, *near_);
   }
 }
 

@@ -1,5 +1,8 @@
 #pragma once
 /// Velocity on faces that no pressure governs: beyond the surface, and in spray and thin films.
+#include <array>
+#include <vector>
+
 #include "numerics/near_water.hpp"
 
 namespace mudlark {
@@ -25,19 +28,22 @@ class VelocityExtension {
   void mark(int component, const CellField<D>& unknown, const CellField<D>& water,
             const CellField<D>& porosity, const FaceVector<D>& capacity);
   void grow_along_normal(int component, const CellField<D>& water, const CellField<D>& porosity,
-                         double* velocity);
+                         const CellField<D>& drains, double* velocity);
   void grow_layer(int component, int layer, double* velocity);
   void keep_from_closing(const CellField<D>& unknown, const CellField<D>& water,
                          const CellField<D>& porosity, const CellField<D>& drains,
                          FaceVector<D>& velocity);
-  void find_squeeze(const double* unknown, const double* water, const double* porosity,
-                    const double* drains, const FaceVector<D>& velocity);
+  void find_flying(const double* unknown, const double* water, const double* porosity,
+                   const double* drains);
+  double squeeze(std::ptrdiff_t at, const FaceVector<D>& velocity) const;
 
   const Grid<D>* grid_;
   const NearWater<D>* near_;
   Ghosts<D> ghosts_;
   FaceVector<D> state_;
   CellField<D> squeeze_;
+  std::array<std::vector<std::ptrdiff_t>, D> flies_;  ///< places of the faces that fly
+  std::vector<std::ptrdiff_t> keeps_open_;            ///< of cells beside them that must not close
 };
 
 extern template class VelocityExtension<2>;

@@ -167,9 +167,9 @@ PorousErrors advect_in_moving_ground(bool fourth_sweep) {
             0.5 * flux[axis][face] + 0.12 * std::sin(2 * pi * s) * std::cos(6.0 * time);
       });
     advection.sweep(water, porosity, flux, dt, step);
-    move_porosity(grid, porosity, flux, dt, moved);
+    move_porosity(grid, everywhere, porosity, flux, dt, moved);
     if (fourth_sweep)
-      advection.follow_porosity(water, porosity, moved);
+      advection.follow_porosity(everywhere, water, porosity, moved);
     else
       porosity.copy_values_from(moved);
     for_each(grid.owned(), [&](const Index<2>& cell) {

@@ -97,5 +97,57 @@ TEST(NearWater, GoesOnAcrossAPeriodicSeam) {
   EXPECT_EQ(near_cells(grid, near), 40.0 * 24.0);
 }
 
+TEST(NearWater, LooksWhereItWasNearIfNothingElseChanges) {
+  const Grid<2> grid = grid_of(40, Wall::slip);
+  State state(grid);
+  const auto set = [&](Index<2> cell, double value) {
+    if (grid.owned().contains(cell)) state.water[cell] = value;
+  };
+  set({{13, 11}}, 1.0);
+  state.update(grid);
+  NearWater<2> near(grid);
+  near.find(state.water, state.porosity, state.velocity, false);
+  set({{15, 11}}, 1.0);  // within the near cells: found
+  set({{30, 11}}, 1.0);  // beyond them: not looked for
+  state.update(grid);
+  near.find(state.water, state.porosity, state.velocity, false, false);
+  expect_near(grid, near, [&](const Index<2>& cell) {
+    return cell[0] >= 8 && cell[0] <= 20 && std::abs(cell[1] - 11) <= 5;
+  });
+}
+
+/// Water and velocity in two opposite corners: behind walls of a kind their ghosts near the water
+/// are the same as if all had been updated.
+void expect_same_ghosts(const Grid<2>& grid) {
+  State all(grid), some(grid);
+  for_each(grid.owned(), [&](const Index<2>& cell) {
+    const int from_lower = std::max(cell[0], cell[1]);
+    const int from_upper = std::max(grid.cells()[0] - 1 - cell[0], grid.cells()[1] - 1 - cell[1]);
+    const int away = std::min(from_lower, from_upper);
+    if (away < 4) all.water[cell] = some.water[cell] = 0.1 + 0.01 * cell[0] + 0.02 * cell[1];
+    for (int a = 0; a < 2; ++a)
+      if (away < 7)
+        all.velocity[a][cell] = some.velocity[a][cell] = 1.0 + cell[0] + 0.1 * cell[1] + 0.3 * a;
+  });
+  all.update(grid);
+  NearWater<2> near(grid);
+  near.find(all.water, all.porosity, all.velocity, false);
+  ASSERT_LT(near_cells(grid, near), 40.0 * 24.0);
+  Ghosts<2> ghosts(grid);
+  ghosts.update(some.water, near);
+  ghosts.update_velocity(some.velocity, near);
+  for_each(grid.local(), [&](const Index<2>& cell) {
+    EXPECT_EQ(some.water[cell], all.water[cell]) << cell[0] << " " << cell[1];
+    for (int a = 0; a < 2; ++a)
+      EXPECT_EQ(some.velocity[a][cell], all.velocity[a][cell]) << a << cell[0] << " " << cell[1];
+  });
+}
+
+TEST(NearWater, GhostsNearTheWaterAreThoseOfAll) {
+  expect_same_ghosts(grid_of(40, Wall::slip));
+  expect_same_ghosts(grid_of(40, Wall::no_slip));
+  expect_same_ghosts(grid_of(40, Wall::open));
+}
+
 }  // namespace
 }  // namespace mudlark
