@@ -84,29 +84,53 @@ SurfaceDistance CutCells<D>::nearest(const std::vector<RigidPose>& bodies, const
   return found;
 }
 
-/// Distance at a corner, given in half cells and mirrored into the domain. A body that stands on a
-/// side has a surface there that no water sees: a corner on it takes the distance of the corner
-/// before it, as if the body went on behind the side.
+/// Is the nearest surface a side's, or beyond it? No water sees a body's face there.
+template <int D>
+bool CutCells<D>::unseen(const SurfaceDistance& found, const Vec<D>& place, int axis,
+                         double outwards) const {
+  const double side = outwards < 0.0 ? grid_->lower()[axis] : grid_->upper()[axis];
+  const double normal = to_axes<D>(to_vector(found.normal))[axis];
+  const double nearest = place[axis] - found.distance * normal;
+  return found.distance < snap_ && outwards * normal > 0.999 &&
+         outwards * (nearest - side) > -snap_;
+}
+
+/// Distance at a corner, given in half cells and mirrored into the domain. Where the nearest
+/// surface is the foot of a body that stands on a side, the body goes on behind the side: the
+/// distance is taken on from the first two corners farther in that see another surface, linear as
+/// that of a plane is.
 template <int D>
 double CutCells<D>::sample(const std::vector<RigidPose>& bodies, const Index<D>& twice) const {
-  Vec<D> place, inwards;
+  Vec<D> place;
+  Index<D> index;
   for (int a = 0; a < D; ++a) {
-    const int last = 2 * grid_->cells()[a];
-    const int index = grid_->periodic(a) ? twice[a] : reflected(twice[a], last);
-    place[a] = place_of(a, index);
-    if (!grid_->periodic(a) && (index == 0 || index == last))
-      inwards[a] = place_of(a, index == 0 ? 2 : last - 2) - place[a];
+    index[a] = grid_->periodic(a) ? twice[a] : reflected(twice[a], 2 * grid_->cells()[a]);
+    place[a] = place_of(a, index[a]);
   }
   std::size_t body = 0;
-  const auto at = [&](const Vec<D>& there) {
-    return nearest(bodies, to_point3(there), 2.0 * diagonal_, body);
-  };
-  const SurfaceDistance found = at(place);
+  const double reach = 2.0 * diagonal_;
+  const SurfaceDistance found = nearest(bodies, to_point3(place), reach, body);
   double distance = found.distance;
-  if (std::abs(distance) < snap_ && norm(inwards) > 0.0 &&
-      to_vector(found.normal).dot(to_space<D>(inwards)) < -0.999 * norm(inwards))
-    distance = std::min(distance, at(place + inwards).distance);
-  return nonzero(std::clamp(distance, -2.0 * diagonal_, 2.0 * diagonal_));
+  for (int a = 0; a < D; ++a)
+    for (const int outwards : {-1, 1}) {
+      if (grid_->periodic(a) || !unseen(found, place, a, outwards)) continue;
+      double before = -reach, way_before = 0.0;
+      for (int step = 2;; step += 2) {
+        Vec<D> inside = place;
+        inside[a] = place_of(a, index[a] - outwards * step);
+        const double way = std::abs(inside[a] - place[a]);
+        const SurfaceDistance one = nearest(bodies, to_point3(inside), reach, body);
+        if (way > reach || !std::isfinite(one.distance)) break;
+        if (unseen(one, inside, a, outwards)) continue;
+        if (way_before > 0.0) {
+          before -= (one.distance - before) * way_before / (way - way_before);
+          break;
+        }
+        before = one.distance, way_before = way;
+      }
+      distance = std::min(distance, before);
+    }
+  return nonzero(std::clamp(distance, -reach, reach));
 }
 
 template <int D>

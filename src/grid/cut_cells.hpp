@@ -44,6 +44,7 @@ class CutCells {
 
  private:
   double place_of(int axis, int twice) const;
+  bool unseen(const SurfaceDistance& found, const Vec<D>& place, int axis, double outwards) const;
   double sample(const std::vector<RigidPose>& bodies, const Index<D>& twice) const;
   std::size_t node(const Index<D>& index) const;
   void sample_nodes(const std::vector<RigidPose>& bodies, const IndexBox<D>& box);

@@ -27,6 +27,15 @@ RigidPose turned(const Shape& shape, double angle, int dimension) {
   return pose;
 }
 
+/// The unit box in `cells` and, upwards, `rows`.
+template <int D>
+Grid<D> flat_box(int cells, int rows) {
+  DomainOptions options;
+  options.cells = {cells, D == 3 ? cells : rows, rows};
+  options.upper = {1.0, 1.0, 1.0};
+  return Grid<D>(options, MPI_COMM_WORLD);
+}
+
 /// Closed volume, sum of the surface's normals, its size, and the volume by its middle heights.
 struct Sums {
   double volume = 0.0, size = 0.0, from_surface = 0.0;
@@ -51,11 +60,15 @@ Sums sums_of(const Grid<D>& grid, const CutCells<D>& cut) {
 }
 
 template <int D>
-Sums cut_out(const RigidPose& pose, int cells) {
-  const Grid<D> grid = unit_box<D>(cells);
+Sums cut_out(const Grid<D>& grid, const RigidPose& pose) {
   CutCells<D> cut(grid);
   cut.find({pose});
   return sums_of(grid, cut);
+}
+
+template <int D>
+Sums cut_out(const RigidPose& pose, int cells) {
+  return cut_out<D>(unit_box<D>(cells), pose);
 }
 
 TEST(CutSimplex, ShareOfATetrahedronIsThatOfManySamples) {
@@ -104,16 +117,47 @@ TEST(CutCells, ABoxOnTheGridLinesIsExactAndItsSurfaceLiesOnFaces) {
   for (const CutCell<3>& one : cut.surface()) EXPECT_EQ(cut.volume()[one.cell], 1.0);
 }
 
-/// Between grid lines, with its foot on the floor as with its foot below it.
+/// Between grid lines, with its foot on the floor or a little below as with its foot far below;
+/// also in cells that are much flatter than wide.
 TEST(CutCells, ABoxThatStandsOnTheFloorHasNoSurfaceThere) {
-  const auto stand = [](double foot) {
-    return cut_out<2>(RigidPose({BoxShape{{0.27, -9.0, foot}, {0.78, 9.0, 0.5}}}, {}, 2), 10);
+  for (const int rows : {10, 40}) {
+    const auto stand = [&](double foot) {
+      const Grid<2> grid = flat_box<2>(10, rows);
+      return cut_out<2>(grid, RigidPose({BoxShape{{0.27, -9.0, foot}, {0.78, 9.0, 0.5}}}, {}, 2));
+    };
+    const Sums below = stand(-0.7);
+    for (const double foot : {0.0, -0.004}) {
+      const Sums on = stand(foot);
+      EXPECT_NEAR(std::abs(on.normal[1]), 0.51, 1e-12);
+      EXPECT_NEAR(on.normal[0], 0.0, 1e-12);
+      EXPECT_NEAR(on.volume, below.volume, 1e-12);
+      EXPECT_NEAR(on.size, below.size, 1e-12);
+    }
+  }
+}
+
+/// Walls that stand upright or lean, round or flat, on the floor as with their foot far below.
+TEST(CutCells, BodiesThatStandOnTheFloorAreThoseThatReachThroughIt) {
+  const Grid<3> grid = flat_box<3>(8, 20);
+  const auto expect_same = [&](const Shape& on, const Shape& below, double allowed) {
+    const Sums one = cut_out<3>(grid, RigidPose(on, {}, 3));
+    const Sums other = cut_out<3>(grid, RigidPose(below, {}, 3));
+    EXPECT_NEAR(one.volume, other.volume, allowed * other.volume);
+    EXPECT_NEAR(one.size, other.size, allowed * other.size);
+    for (std::size_t a = 0; a < 3; ++a)
+      EXPECT_NEAR(one.normal[a], other.normal[a], allowed * other.size);
   };
-  const Sums on = stand(0.0), below = stand(-0.2);
-  EXPECT_NEAR(std::abs(on.normal[1]), 0.51, 1e-12);
-  EXPECT_NEAR(on.normal[0], 0.0, 1e-12);
-  EXPECT_NEAR(on.volume, below.volume, 1e-12);
-  EXPECT_NEAR(on.size, below.size, 1e-12);
+  const auto pier = [](double foot) {
+    return Shape{CylinderShape{{0.5, 0.5, foot}, {0.5, 0.5, 0.61}, 0.23}};
+  };
+  expect_same(pier(0.0), pier(-1.0), 1e-12);
+  const auto keel = [](double foot) {  // wider above, by 1:2
+    PolygonShape shape;
+    shape.corners = {
+        {0.37 - 0.5 * foot, foot}, {0.64 + 0.5 * foot, foot}, {0.94, 0.6}, {0.07, 0.6}};
+    return Shape{shape};
+  };
+  expect_same(keel(0.0), keel(-0.2), 1e-12);
 }
 
 TEST(CutCells, ATiltedBoxConvergesAtSecondOrderAndIsClosed) {
