@@ -8,10 +8,6 @@ template <int D>
 SurfaceLoads<D>::SurfaceLoads(const Grid<D>& grid, std::vector<SurfaceLoad> loads)
     : grid_(&grid),
       all_loads_(std::move(loads)),
-      loads_begin_(grid, "load", "Pa"),
-      loads_end_(grid, "load", "Pa"),
-      water_begin_(grid, "load on water", "Pa"),
-      water_end_(grid, "load on water", "Pa"),
       traction_(grid, "surface pressure", "Pa"),
       drained_(grid, "drainage pressure", "Pa") {
   set_active({});
@@ -33,44 +29,38 @@ void SurfaceLoads<D>::begin_step(double begin, double length, const FluidLoad<D>
   length_ = length;
   water_ = water;
   box_ = box;
-  steady_ = !water;
+  steady_ = !water && std::none_of(loads_.begin(), loads_.end(),
+                                   [](const SurfaceLoad& load) { return !load.pressure.constant; });
   filled_ = false;
-  if (loads_.empty()) return;
+}
+
+/// Loads and water at `time`, on the cells of the box.
+template <int D>
+void SurfaceLoads<D>::fill(double time, bool against_flow) {
+  const double late = length_ > 0.0 ? std::clamp((time - begin_) / length_, 0.0, 1.0) : 1.0;
   for_each(box_, [&](const Index<D>& cell) {
-    const Point3 place = to_point3(grid_->cell_centre(cell));
-    double first = 0.0, last = 0.0, water_first = 0.0, water_last = 0.0;
-    for (const SurfaceLoad& load : loads_) {
-      const double now = load.pressure(place, begin), then = load.pressure(place, begin + length);
-      first += now;
-      last += then;
-      if (load.on == LoadedPhase::water) water_first += now, water_last += then;
-    }
-    loads_begin_[cell] = first;
-    loads_end_[cell] = last;
-    water_begin_[cell] = water_first;
-    water_end_[cell] = water_last;
-    steady_ = steady_ && first == last && water_first == water_last;
+    const double water =
+        water_ ? (1.0 - late) * water_->pressure_begin[cell] + late * water_->pressure_end[cell]
+               : 0.0;
+    traction_[cell] = water;
+    drained_[cell] = against_flow ? water : 0.0;
   });
+  for (const SurfaceLoad& load : loads_) {
+    const bool on_water = load.on == LoadedPhase::water;
+    for_each(box_, [&](const Index<D>& cell) {
+      const double pressure = load.pressure(to_point3(grid_->cell_centre(cell)), time);
+      traction_[cell] += pressure;
+      if (on_water) drained_[cell] += pressure;
+    });
+  }
 }
 
 template <int D>
 SurfacePressure<D> SurfaceLoads<D>::at(double time) {
   if (!loaded()) return {};
   const bool against_flow = water_ && water_->outlet != PoreOutlet::at_zero_pressure;
-  if (!steady_ || !filled_) {
-    const double late = length_ > 0.0 ? std::clamp((time - begin_) / length_, 0.0, 1.0) : 1.0;
-    const double early = 1.0 - late;
-    for_each(box_, [&](const Index<D>& cell) {
-      const double load =
-          loads_.empty() ? 0.0 : early * loads_begin_[cell] + late * loads_end_[cell];
-      const double water =
-          water_ ? early * water_->pressure_begin[cell] + late * water_->pressure_end[cell] : 0.0;
-      traction_[cell] = load + water;
-      drained_[cell] = (against_flow ? water : 0.0) +
-                       (on_water_ ? early * water_begin_[cell] + late * water_end_[cell] : 0.0);
-    });
-    filled_ = true;
-  }
+  if (!steady_ || !filled_) fill(time, against_flow);
+  filled_ = true;
   return {&traction_, against_flow || on_water_ ? &drained_ : nullptr};
 }
 

@@ -17,10 +17,11 @@ class SurfaceLoads {
 
   /// Which of the loads act from now on, in their order; nothing: all.
   void set_active(std::optional<std::vector<bool>> active);
-  /// Samples the loads at both ends of [begin, begin + length] (linear between) on the cells of
-  /// `box`. `water` must live until the step is over; null: no free water.
+  /// For the cells of `box` and times in [begin, begin + length]. Water's pressure is linear
+  /// between both; loads are taken as they are at each time, however fast they vary. `water` must
+  /// live until the step is over; null: no free water.
   void begin_step(double begin, double length, const FluidLoad<D>* water, const IndexBox<D>& box);
-  /// Samples the open step again on another box of cells, after the soil moved on.
+  /// Goes on in the open step with another box of cells, after the soil moved on.
   void resample(const IndexBox<D>& box) { begin_step(begin_, length_, water_, box); }
   /// The pressures at `time` within the step; valid until the next call.
   SurfacePressure<D> at(double time);
@@ -28,6 +29,7 @@ class SurfaceLoads {
 
  private:
   bool loaded() const { return water_ || !loads_.empty(); }
+  void fill(double time, bool against_flow);
 
   const Grid<D>* grid_;
   std::vector<SurfaceLoad> all_loads_, loads_;  ///< and those that act
@@ -36,7 +38,7 @@ class SurfaceLoads {
   IndexBox<D> box_{};
   bool steady_ = false, filled_ = false;
   bool on_water_ = false;  ///< does any load press on the pore water?
-  CellField<D> loads_begin_, loads_end_, water_begin_, water_end_, traction_, drained_;
+  CellField<D> traction_, drained_;
 };
 
 /// The load by facets, Eqs. 10-15 of the paper, on this grid: between a cell with soil and one

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "unit/soil/soil_setup.hpp"
 
 namespace mudlark {
@@ -213,7 +215,7 @@ TEST(LoadForms, DifferOnASlopeByLessThanTheStepsOfTheFacets) {
   EXPECT_LT(18 * difference / total, 3.0);
 }
 
-TEST(SurfaceLoads, AreLinearInTimeBetweenTheEndsOfTheStepAndAddUp) {
+TEST(SurfaceLoads, AreThoseOfTheMomentWithWaterLinearBetweenTheEndsOfTheStepAndAddUp) {
   const Grid<2> grid = make_grid<2>({6, 6, 1}, Wall::slip);
   const Varying rising([](const Point3& x, double t) { return 100.0 * t * t + x[0]; }, "rising");
   SurfaceLoads<2> loads(grid, {{"rising", rising}, {"constant", Varying(7.0)}});
@@ -224,8 +226,9 @@ TEST(SurfaceLoads, AreLinearInTimeBetweenTheEndsOfTheStepAndAddUp) {
   const Index<2> cell{{2, 3}};
   const double x = grid.cell_centre(cell)[0];
   for (const double share : {0.0, 0.25, 1.0}) {
-    const SurfacePressure<2> now = loads.at(1.0 + 2.0 * share);
-    EXPECT_NEAR((*now.traction)[cell], 100.0 + share * 800.0 + x + 7.0 + 10.0 + share * 20.0, 1e-9);
+    const double t = 1.0 + 2.0 * share;
+    const SurfacePressure<2> now = loads.at(t);
+    EXPECT_NEAR((*now.traction)[cell], 100.0 * t * t + x + 7.0 + 10.0 + share * 20.0, 1e-9);
     ASSERT_NE(now.drained, nullptr);
     EXPECT_NEAR((*now.drained)[cell], 10.0 + share * 20.0, 1e-12);
   }
@@ -235,6 +238,20 @@ TEST(SurfaceLoads, AreLinearInTimeBetweenTheEndsOfTheStepAndAddUp) {
   EXPECT_FALSE(loads.sealed());
   water.outlet = PoreOutlet::sealed;
   EXPECT_TRUE(loads.sealed());
+}
+
+/// A load that swings within an outer step, and is the same at both of its ends.
+TEST(SurfaceLoads, ThatSwingWithinAStepAreFollowed) {
+  const Grid<2> grid = make_grid<2>({6, 6, 1}, Wall::slip);
+  const Varying swinging([](const Point3&, double t) { return std::sin(t); }, "sin(t)");
+  SurfaceLoads<2> loads(grid, {{"swinging", swinging, LoadedPhase::water}});
+  loads.begin_step(0.0, 2.0 * std::acos(-1.0), nullptr, grid.local());
+  const Index<2> cell{{2, 3}};
+  for (const double t : {0.5, 2.0, 5.0}) {
+    const SurfacePressure<2> now = loads.at(t);
+    EXPECT_EQ((*now.traction)[cell], std::sin(t));
+    EXPECT_EQ((*now.drained)[cell], std::sin(t));
+  }
 }
 
 TEST(SurfaceLoads, WithNothingToBearGiveNothing) {
