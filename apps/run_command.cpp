@@ -3,8 +3,11 @@
 #include <unistd.h>
 
 #include <fstream>
+#include <optional>
 
 #include "commands.hpp"
+#include "folder_lock.hpp"
+#include "grid/rank_check.hpp"
 #include "input/case_file.hpp"
 #include "input/quantity.hpp"
 #include "launcher.hpp"
@@ -67,12 +70,16 @@ ExitCode run_here(const RunArguments& arguments) {
   MPI_Comm_size(MPI_COMM_WORLD, &size);
   std::string problem;
   Prepared run;
+  std::optional<FolderLock> lock;
   try {
     if (arguments.ranks && *arguments.ranks != size)
       throw InputError(fmt::format("-n {} differs from the {} ranks that the launcher started",
                                    *arguments.ranks, size));
     run = prepare(arguments);
-    if (rank == 0) prepare_results(run.settings.results, arguments.resume);
+    if (rank == 0) {
+      prepare_results(run.settings.results, arguments.resume);
+      lock.emplace(run.settings.results);
+    }
   } catch (const InputError& error) {
     problem = error.what();
   }
@@ -85,6 +92,7 @@ ExitCode run_here(const RunArguments& arguments) {
 ExitCode run_command(const RunArguments& arguments, const std::vector<std::string>& command_line) {
   if (!started_by_launcher()) {
     const Prepared run = prepare(arguments);  // mistakes end here, before any rank starts
+    check_ranks(run.options.domain, arguments.ranks.value_or(1));
     prepare_results(run.settings.results, arguments.resume);
     if (arguments.ranks.value_or(1) > 1) return run_on_ranks(*arguments.ranks, command_line);
   }

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "commands.hpp"
+#include "grid/rank_check.hpp"
 #include "input/case_file.hpp"
 #include "launcher.hpp"
 #include "parallel/collective_error.hpp"
@@ -71,8 +72,10 @@ ExitCode search_here(const StrengthReductionArguments& arguments) {
 
 ExitCode strength_reduction_command(const StrengthReductionArguments& arguments,
                                     const std::vector<std::string>& command_line) {
-  if (!started_by_launcher() && arguments.ranks > 1)
+  if (!started_by_launcher() && arguments.ranks > 1) {
+    check_ranks(read_case(arguments.case_file, arguments.overrides).domain, arguments.ranks);
     return run_on_ranks(arguments.ranks, command_line);
+  }
   return in_parallel([&] { return search_here(arguments); });
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/errors.hpp"
+#include "parallel/process_grid.hpp"
 
 namespace mudlark {
 namespace {
@@ -18,7 +19,8 @@ void check(PetscErrorCode code, const char* what) {
 /// as this many others of the same area.
 constexpr double vertical_cut = 2.0;
 
-/// Process grid whose blocks are at least `minimum_width` cells wide and have the smallest cuts.
+}  // namespace
+
 template <int D>
 Index<D> choose_processes(int size, const Index<D>& cells, int minimum_width) {
   Index<D> best{};
@@ -50,8 +52,6 @@ Index<D> choose_processes(int size, const Index<D>& cells, int minimum_width) {
         size, minimum_width));
   return best;
 }
-
-}  // namespace
 
 template <int D>
 Partition<D> make_partition(MPI_Comm comm, const Index<D>& cells,
@@ -107,6 +107,8 @@ Partition<D> make_partition(MPI_Comm comm, const Index<D>& cells,
   return part;
 }
 
+template Index<2> choose_processes<2>(int, const Index<2>&, int);
+template Index<3> choose_processes<3>(int, const Index<3>&, int);
 template Partition<2> make_partition<2>(MPI_Comm, const Index<2>&, const std::array<bool, 2>&, int);
 template Partition<3> make_partition<3>(MPI_Comm, const Index<3>&, const std::array<bool, 3>&, int);
 

@@ -1,4 +1,6 @@
 /// What the commands of the real program do with right input.
+#include <sys/file.h>
+
 #include "regression/input/program.hpp"
 
 namespace mudlark {
@@ -57,6 +59,25 @@ TEST_F(CommandLine, InterruptedRanksWriteACheckpointAndTheProgramReturns130) {
   const Result result = wait_for(child, log());
   EXPECT_EQ(result.code, 130) << result.output;
   EXPECT_FALSE(fs::is_empty(folder_ / "out" / "checkpoint"));
+}
+
+/// The first run is played by the lock that it would hold.
+TEST_F(CommandLine, ASecondRunIntoTheSameFolderIsRefused) {
+  const fs::path results = folder_ / "out";
+  fs::create_directories(results);
+  const int file = open(results.c_str(), O_RDONLY | O_DIRECTORY);
+  ASSERT_EQ(flock(file, LOCK_EX | LOCK_NB), 0);
+  const Result second = program({"run", pond("0.01").string(), "-o", results.string()});
+  EXPECT_EQ(second.code, 1);
+  EXPECT_NE(second.output.find("another run is writing"), std::string::npos) << second.output;
+  close(file);
+  EXPECT_EQ(program({"run", pond("0.01").string(), "-o", results.string()}).code, 0);
+}
+
+TEST_F(CommandLine, RanksThatTheGridCannotUseAreRefusedBeforeTheyStart) {
+  const Result result = program({"run", pond("0.01").string(), "-n", "100000"});
+  EXPECT_EQ(result.code, 1);
+  EXPECT_NE(result.output.find("too many for this grid"), std::string::npos) << result.output;
 }
 
 TEST_F(CommandLine, CasesAreListedWithTheirTitlesCopiedAndNeverOverwritten) {
