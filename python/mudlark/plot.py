@@ -46,6 +46,25 @@ def scalars(values):
     return (values[:, :3].mean(axis=1), ", mean") if values.shape[1] == 6 else (np.linalg.norm(values, axis=1), ", length")
 
 
+def draw_columns(axis, gauge):
+    """The columns of a gauge; those of a second unit have their own axis on the right."""
+    lines = []
+    for number, unit in enumerate(dict.fromkeys(gauge.units.values())):
+        side = axis if number == 0 else axis.twinx()
+        named = [name for name in gauge.columns if gauge.units[name] == unit]
+        factor, shown_unit = drawing.unit_scale(unit, drawing.shared_norm([gauge.columns[name] for name in named]))
+        for name in named:
+            values = gauge.columns[name]
+            few = len(values) < 15
+            lines += side.plot(gauge.time, values * factor, "o-" if few else "-", ms=3, lw=1.6,
+                               color=plt.cm.tab10(len(lines)), label=name)
+        side.set_ylabel(f"{named[0] if len(named) == 1 else ''} [{shown_unit}]".strip())
+        if number > 0:
+            side.ticklabel_format(axis="y", useOffset=False)
+    if len(lines) > 1:
+        axis.legend(handles=lines)
+
+
 def draw_gauges(results, names, path):
     gauges = [results.gauge(name) for name in names]
     gauges = [gauge for gauge in gauges if gauge.time.size]
@@ -55,19 +74,11 @@ def draw_gauges(results, names, path):
     rows = -(-len(gauges) // columns)
     figure, axes = plt.subplots(rows, columns, figsize=(4.6 * columns, 3.2 * rows), squeeze=False)
     for axis, gauge in zip(axes.flat, gauges):
-        norm = drawing.shared_norm(list(gauge.columns.values()))
-        unit = next(iter(gauge.units.values()))
-        factor, shown_unit = drawing.unit_scale(unit, norm)
-        for index, (name, values) in enumerate(gauge.columns.items()):
-            few = len(values) < 15
-            axis.plot(gauge.time, values * factor, "o-" if few else "-", ms=3, lw=1.6, color=plt.cm.tab10(index), label=name)
+        draw_columns(axis, gauge)
         first = next(iter(gauge.columns))
-        alone = len(gauge.columns) == 1
-        axis.set(title=gauge.name, xlabel="time [s]", ylabel=f"{first if alone else ''} [{shown_unit}]".strip())
+        axis.set(title=gauge.name, xlabel="time [s]")
         if gauge.time.size > 1:
             axis.set_xlim(gauge.time[0], gauge.time[-1])
-        if not alone:
-            axis.legend()
         if first in DOWNWARD:
             axis.invert_yaxis()
         axis.grid(color="0.92", lw=0.6)

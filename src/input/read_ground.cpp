@@ -52,6 +52,21 @@ Placement read_placement(Section& section) {
   return placement;
 }
 
+/// False with a message when no place of a file lies over the domain: coordinates of another
+/// origin.
+bool reaches_domain(Section& section, std::size_t axis, const std::vector<double>& places) {
+  const auto [first, last] = std::minmax_element(places.begin(), places.end());
+  const double lower = section.reading().domain->lower[axis],
+               upper = section.reading().domain->upper[axis];
+  if (*first<upper&& * last> lower) return true;
+  section.fail(
+      "file",
+      fmt::format("its {} go from {:.10g} to {:.10g} m, beside the domain ({:g} to {:g} m)",
+                  "xyz"[axis], *first, *last, lower, upper),
+      "`offset` is added to its coordinates.");
+  return false;
+}
+
 /// The part of a line over the domain, so that what lies beyond it does not count.
 Line cropped(const Line& line, double lower, double upper) {
   const auto height = [&](double x) {
@@ -77,6 +92,9 @@ std::optional<Shape> line_of(Section& section, HeightFile& file, const Placement
   for (std::size_t i = 0; i < file.x.size(); ++i)
     line.push_back({unit_x * placement.scale * file.x[i] + placement.offset[0],
                     unit_z * placement.scale * file.heights[i] + placement.offset[2]});
+  std::vector<double> places;
+  for (const auto& point : line) places.push_back(point[0]);
+  if (!reaches_domain(section, 0, places)) return {};
   const BoxShape& domain = *section.reading().domain;
   return Shape{BelowShape{cropped(line, domain.lower[0], domain.upper[0])}};
 }
@@ -118,6 +136,7 @@ std::optional<Shape> map_of(Section& section, HeightFile& file, const Placement&
   for (double& x : file.x) x = unit[0] * placement.scale * x + placement.offset[0];
   for (double& y : file.y) y = unit[1] * placement.scale * y + placement.offset[1];
   for (double& z : file.heights) z = unit[2] * placement.scale * z + placement.offset[2];
+  if (!reaches_domain(section, 0, file.x) || !reaches_domain(section, 1, file.y)) return {};
   if (!fill_missing(section, file, substitute)) return {};
   const BoxShape& domain = *section.reading().domain;
   const HeightMap whole(std::move(file.x), std::move(file.y), std::move(file.heights));

@@ -317,7 +317,8 @@ std::string read_name(Section& section, std::vector<std::string>& used) {
   if (!plain)
     section.fail(
         "name",
-        "a name consists of letters, digits, blanks and _ - + . and does not begin with a dot");
+        "a name consists of at most 100 letters, digits, blanks and _ - + . and does not begin "
+        "with a dot");
   else if (std::find(used.begin(), used.end(), name) != used.end())
     section.fail("name", "another one has this name already", "Give each its own name.");
   used.push_back(name);

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "base/errors.hpp"
-#include "flow/wave_zone.hpp"
+#include "run/water_doubts.hpp"
 
 namespace mudlark {
 namespace {
@@ -17,32 +17,18 @@ constexpr double degree = std::numbers::pi / 180.0;  // [rad]
 /// Below this an angle of friction is more likely one in radians [rad].
 constexpr double least_friction = 3.0 * degree;
 /// Dry grains lighter than this are more likely in g/cm3 or t/m3 [kg/m3].
-constexpr double lightest_grains = 500.0, lightest_water = 100.0;
+constexpr double lightest_grains = 500.0;
 /// Grains that drain have less.
 constexpr double drained_ratio = 0.4;
 /// Even foam is heavier [kg/m3].
 constexpr double lightest_solid = 10.0;
 /// Of coarse gravel [m/s].
 constexpr double largest_conductivity = 1.0;
-/// Kinematic viscosity of water is 1e-6 m2/s; a dynamic one so small belongs to no liquid [Pa s].
-constexpr double least_viscosity = 1e-5;
-/// Cells that a wave needs at least over its height and its length.
-constexpr double least_cells_of_height = 1.0, least_cells_of_length = 15.0;
 
 double gravity_of(const DomainOptions& domain) {
   double sum = 0.0;
   for (const double g : domain.gravity) sum += g * g;
   return std::sqrt(sum);
-}
-
-/// Smallest cell along an axis of the domain [m].
-double cell_size(const DomainOptions& domain, std::size_t axis) {
-  const std::vector<double>& faces = domain.faces[axis];
-  if (faces.empty()) return (domain.upper[axis] - domain.lower[axis]) / domain.cells[axis];
-  double smallest = faces[1] - faces[0];
-  for (std::size_t f = 1; f + 1 < faces.size(); ++f)
-    smallest = std::min(smallest, faces[f + 1] - faces[f]);
-  return smallest;
 }
 
 std::optional<double> young_modulus(const SoilLawOptions& law) {
@@ -188,21 +174,6 @@ void doubt_soil(const CaseOptions& options, std::vector<std::string>& found) {
   }
 }
 
-/// Height of the highest water at the start in a column [m]; nothing where it is dry.
-std::optional<double> water_level(const CaseOptions& options, double x, double y) {
-  const auto up = static_cast<std::size_t>(options.domain.dimension - 1);
-  const double step = 0.25 * cell_size(options.domain, up);
-  const auto at = [&](const auto& part, double z) { return part.shape.contains({x, y, z}); };
-  for (double z = options.domain.upper[up] - 0.5 * step; z > options.domain.lower[up]; z -= step) {
-    const auto here = [&](const auto& part) { return at(part, z); };
-    const FlowOptions& flow = *options.flow;
-    if (std::any_of(flow.bodies.begin(), flow.bodies.end(), here) &&
-        std::none_of(flow.solids.begin(), flow.solids.end(), here))
-      return z + 0.5 * step;
-  }
-  return {};
-}
-
 /// Is the soil dry under open water in one of these columns? Height where that water ends [m].
 std::optional<double> water_over_dry_soil(const CaseOptions& options, const SoilBody& body) {
   const DomainOptions& domain = options.domain;
@@ -250,174 +221,34 @@ void doubt_pores(const CaseOptions& options, const SoilBody& body,
           : ""));
 }
 
-/// Level of the water at the start where a wave is made or absorbed, if that is still_level nowhere
-/// along it.
-std::optional<double> other_level(const CaseOptions& options, const WaveZoneOptions& zone,
-                                  double outer, double inner) {
-  const DomainOptions& domain = options.domain;
-  const auto up = static_cast<std::size_t>(domain.dimension - 1);
-  constexpr int columns = 11;
-  std::optional<double> other;
-  for (int c = 0; c < columns; ++c) {
-    const double along = outer + (inner - outer) * (c + 0.5) / columns;
-    const double across = domain.dimension == 3
-                              ? 0.5 * (domain.lower[1 - static_cast<std::size_t>(zone.axis)] +
-                                       domain.upper[1 - static_cast<std::size_t>(zone.axis)])
-                              : 0.0;
-    const std::optional<double> level =
-        zone.axis == 0 ? water_level(options, along, across) : water_level(options, across, along);
-    if (!level) continue;
-    if (std::abs(*level - zone.still_level) <= cell_size(domain, up)) return {};
-    other = level;
+/// A surface from a file that is far larger than the domain: millimetres taken for metres.
+void doubt_size(const DomainOptions& domain, const auto& solid, std::vector<std::string>& found) {
+  if (!std::holds_alternative<StlShape>(solid.shape.form)) return;
+  constexpr double far_larger = 20.0;
+  const BoxShape box = bounds(solid.shape);
+  double largest = 0.0, room = 0.0;
+  for (std::size_t a = 0; a < 3; ++a) {
+    largest = std::max(largest, box.upper[a] - box.lower[a]);
+    room = std::max(room, domain.upper[a] - domain.lower[a]);
   }
-  return other;
-}
-
-/// A solitary wave whose crest starts so near that much of it has come in before the run starts.
-void doubt_crest(const WaveZoneOptions& zone, std::vector<std::string>& found) {
-  const auto* solitary = std::get_if<SolitaryWave>(&zone.wave);
-  if (!solitary || zone.ramp > 0.0 || !(solitary->height > 0.0)) return;
-  // eta = H sech^2 of K times the distance from the crest (Boussinesq)
-  constexpr double most = 0.1, good = 0.02;
-  const double scale = std::sqrt(0.75 * solitary->height / std::pow(zone.depth, 3));
-  const double share = std::pow(std::cosh(scale * solitary->crest), -2.0);
-  if (share <= most) return;
-  found.push_back(fmt::format(
-      "wave \"{}\": the solitary wave begins with a jolt: at its outer end the level has to stand "
-      "{:.2g} m above still water when the run starts. Its crest starts farther away with crest = "
-      "{:.3g} or less.",
-      zone.name, share * solitary->height, -std::acosh(1.0 / std::sqrt(good)) / scale));
-}
-
-void doubt_wave(const CaseOptions& options, const WaveZoneOptions& zone, double outer, double inner,
-                std::vector<std::string>& found) {
-  if (!std::holds_alternative<GivenWave>(zone.wave))
-    if (const auto level = other_level(options, zone, outer, inner))
-      found.push_back(fmt::format(
-          "wave \"{}\": still_level is {:g} m, and the water there stands at {:.4g} m when the run "
-          "starts: it rises or falls to still_level first.",
-          zone.name, zone.still_level, *level));
-  doubt_crest(zone, found);
-  const auto* regular = std::get_if<RegularWave>(&zone.wave);
-  if (!regular) return;
-  const auto up = static_cast<std::size_t>(options.domain.dimension - 1);
-  const double high = cell_size(options.domain, up);
-  const double wide = cell_size(options.domain, static_cast<std::size_t>(zone.axis));
-  double length = 0.0;
-  try {
-    length = make_wave(zone, std::abs(options.domain.gravity[up]))->length();
-  } catch (const InputError&) {
-    return;  // told elsewhere
-  }
-  if (regular->height < least_cells_of_height * high || length < least_cells_of_length * wide)
+  if (largest > far_larger * room)
     found.push_back(fmt::format(
-        "wave \"{}\": it is {:.3g} cells high and {:.3g} long. Waves lose height on so few; ten "
-        "over the height and sixty over the length are good.",
-        zone.name, regular->height / high, length / wide));
-}
-
-/// A nozzle in the air: without a level it takes the water at the side for what comes in.
-void doubt_opening(const CaseOptions& options, const FlowSideOptions& side,
-                   std::vector<std::string>& found) {
-  const DomainOptions& domain = options.domain;
-  if (side.flow != SideFlow::velocity || side.level || side.axis == domain.dimension - 1) return;
-  const auto axis = static_cast<std::size_t>(side.axis);
-  const auto up = static_cast<std::size_t>(domain.dimension - 1);
-  const double inside = 0.5 * cell_size(domain, axis);
-  const double place = side.side == 0 ? domain.lower[axis] + inside : domain.upper[axis] - inside;
-  double depth = 0.0;  // of the water in the column, wherever it stands
-  const double step = 0.25 * cell_size(domain, up);
-  Point3 at{};
-  at[axis] = place;
-  if (domain.dimension == 3) {
-    const std::size_t across = 1 - axis;
-    at[across] = 0.5 * (std::max(side.from[across], domain.lower[across]) +
-                        std::min(side.to[across], domain.upper[across]));
-  }
-  for (at[2] = domain.lower[up] + 0.5 * step; at[2] < domain.upper[up]; at[2] += step)
-    if (std::any_of(options.flow->bodies.begin(), options.flow->bodies.end(),
-                    [&](const WaterBody& body) { return body.shape.contains(at); }))
-      depth += step;
-  const double foot = std::max(side.from[2], domain.lower[up]);
-  if (domain.lower[up] + depth > foot) return;
-  found.push_back(fmt::format(
-      "opening \"{}\" lets nothing in: it begins at {:g} m, above the water at its side, and what "
-      "comes in is water only below `level`, by default that of the water there. Write level = "
-      "{:g} "
-      "for a full jet.",
-      side.name, foot, std::min(side.to[2], domain.upper[up])));
-}
-
-/// Open water over the ground at a side that holds it at another level.
-void doubt_head(const CaseOptions& options, const GroundSideOptions& side,
-                std::vector<std::string>& found) {
-  const DomainOptions& domain = options.domain;
-  const auto up = static_cast<std::size_t>(domain.dimension - 1);
-  const auto axis = static_cast<std::size_t>(side.axis);
-  if (side.water != GroundSideWater::head || axis == up) return;
-  Point3 at{};
-  const double inside = 0.5 * cell_size(domain, axis);
-  at[axis] = side.side == 0 ? domain.lower[axis] + inside : domain.upper[axis] - inside;
-  if (domain.dimension == 3) {
-    const std::size_t across = 1 - axis;
-    at[across] = 0.5 * (std::max(side.from[across], domain.lower[across]) +
-                        std::min(side.to[across], domain.upper[across]));
-  }
-  const std::optional<double> level = water_level(options, at[0], at[1]);
-  if (!level) return;
-  const double cell = cell_size(domain, up);
-  at[2] = std::min(*level, side.to[2]) - 0.5 * cell;
-  const auto here = [&](const auto& part) { return part.shape.contains(at); };
-  const auto& soils = options.soil->bodies;
-  const auto& porous = options.flow->porous;
-  if (at[2] < side.from[2] || std::any_of(soils.begin(), soils.end(), here) ||
-      std::any_of(porous.begin(), porous.end(), here))
-    return;
-  const double head = side.value(at, 0.0);
-  if (std::abs(head - *level) <= cell) return;
-  found.push_back(fmt::format(
-      "boundary \"{}\": its head is {:g} m, and the open water there stands at {:.4g} m when the "
-      "run starts: it {} to the head at once, as a wave. A boundary that ends at the ground "
-      "(\"to\") "
-      "leaves the water over it to the wall.",
-      side.name, head, *level, head > *level ? "rises" : "falls"));
-}
-
-void doubt_water(const CaseOptions& options, std::vector<std::string>& found) {
-  const FlowOptions& flow = *options.flow;
-  if (flow.density < lightest_water)
-    found.push_back(fmt::format("water.density = {:g} kg/m3. Fresh water has 1000, or \"1 g/cm3\".",
-                                flow.density));
-  if (flow.viscosity > 0.0 && flow.viscosity < least_viscosity)
-    found.push_back(fmt::format(
-        "water.viscosity = {:g} Pa s is the dynamic one: water has 1e-3 Pa s (1e-6 m2/s is its "
-        "kinematic viscosity).",
-        flow.viscosity));
-  for (const WaveZoneOptions& zone : flow.waves)
-    doubt_wave(options, zone, zone.outer, zone.inner, found);
-  for (const WaveSourceOptions& source : flow.wave_sources)
-    doubt_wave(options, source.wave, source.wave.outer, source.wave.outer, found);
-  for (const GroundSideOptions& side : flow.ground_sides) doubt_head(options, side, found);
-  for (const FlowSideOptions& side : flow.sides) {
-    if (side.flow != SideFlow::wave) {
-      doubt_opening(options, side, found);
-      continue;
-    }
-    const auto axis = static_cast<std::size_t>(side.axis);
-    const double inwards = side.side == 0 ? 1.0 : -1.0;
-    const double place = side.side == 0 ? options.domain.lower[axis] : options.domain.upper[axis];
-    doubt_wave(options, side.wave, place, place + inwards * cell_size(options.domain, axis), found);
-  }
+        "solid \"{}\": its surface is {:.4g} m long, and the domain {:.4g} m. A file in "
+        "millimetres needs scale = 0.001.",
+        solid.name, largest, room));
 }
 
 /// Of bodies in soil or in water.
-void doubt_solids(const auto& solids, std::vector<std::string>& found) {
-  for (const auto& solid : solids)
+void doubt_solids(const DomainOptions& domain, const auto& solids,
+                  std::vector<std::string>& found) {
+  for (const auto& solid : solids) {
+    doubt_size(domain, solid, found);
     if (const auto* motion = std::get_if<FreeSolid>(&solid.motion);
         motion && motion->density > 0.0 && motion->density < lightest_solid)
       found.push_back(fmt::format(
           "solid \"{}\": density = {:g} kg/m3 is hardly any. Concrete has 2400, or \"2.4 g/cm3\".",
           solid.name, motion->density));
+  }
 }
 
 }  // namespace
@@ -425,9 +256,9 @@ void doubt_solids(const auto& solids, std::vector<std::string>& found) {
 std::vector<std::string> doubts(const CaseOptions& options) {
   std::vector<std::string> found;
   if (options.flow)
-    doubt_solids(options.flow->solids, found);
+    doubt_solids(options.domain, options.flow->solids, found);
   else if (options.soil)
-    doubt_solids(options.soil->solids, found);
+    doubt_solids(options.domain, options.soil->solids, found);
   if (options.soil) doubt_soil(options, found);
   if (options.flow) doubt_water(options, found);
   if (options.soil && options.flow && options.coupling.mode != CouplingMode::none)

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <numbers>
+
+#include "grid/triangle_mesh.hpp"
 
 namespace mudlark {
 namespace {
@@ -140,6 +143,43 @@ TEST(Doubts, WavesOfTooFewCells) {
   options.domain.cells = {20, 4, 1};  // 0.5 m, for a wave 0.2 m high
   options.flow->waves.push_back(waves(1.0));
   expect_doubt(options, {"sea", "0.4 cells high"});
+}
+
+TEST(Doubts, ObliqueWavesThatDoNotFitBetweenPeriodicSides) {
+  CaseOptions options = pond();  // waves of 5.302 m
+  options.domain.dimension = 3;
+  options.domain.upper = {10.0, 8.0, 2.0};
+  options.domain.cells = {100, 80, 20};
+  options.domain.gravity = {0.0, 0.0, -9.81};
+  std::get<BoxShape>(options.flow->bodies[0].shape.form).upper[1] = 8.0;
+  options.flow->waves.push_back(waves(1.0));
+  options.flow->waves[0].direction = -20.0 * std::numbers::pi / 180.0;
+  EXPECT_TRUE(doubts(options).empty());  // closed sides throw it back, as they should
+  options.domain.walls[1] = {Wall::periodic, Wall::periodic};
+  expect_doubt(options, {"sea", "0.516 waves", "direction = -41.51", "15.5 m wide"});
+  options.flow->waves[0].direction = -41.51 * std::numbers::pi / 180.0;
+  EXPECT_TRUE(doubts(options).empty());
+  IrregularSea sea;
+  sea.significant_height = 0.2, sea.sea.spectrum.peak_period = 2.0;
+  options.flow->waves[0].direction = 0.0, options.flow->waves[0].wave = sea;
+  EXPECT_TRUE(doubts(options).empty());
+  sea.sea.spreading = 10.0, options.flow->waves[0].wave = sea;
+  expect_doubt(options, {"sea", "components do not fit", "spreading"});
+}
+
+TEST(Doubts, SurfaceInMillimetres) {
+  CaseOptions options = pond();
+  FlowSolid block;
+  const auto mesh = [](double size) {  // a tetrahedron
+    const Point3 o{0.0, 0.0, 0.0}, x{size, 0.0, 0.0}, y{0.0, size, 0.0}, z{0.0, 0.0, size};
+    return StlShape{std::make_shared<const TriangleMesh>(
+        std::vector<Triangle>{{o, y, x}, {o, x, z}, {o, z, y}, {x, y, z}})};
+  };
+  block.name = "block", block.shape.form = mesh(1500.0);
+  options.flow->solids.push_back(block);
+  expect_doubt(options, {"block", "1500 m long", "scale = 0.001"});
+  options.flow->solids[0].shape.form = mesh(1.5);
+  EXPECT_TRUE(doubts(options).empty());
 }
 
 TEST(Doubts, NozzleAboveTheWaterWithoutALevel) {
