@@ -48,15 +48,40 @@ Varying parse_expression(const std::string& text) {
       constant.text = text;
       return constant;
     }
-    return {[program](const Point3& position, double time) { return (*program)(position, time); },
-            text};
+    Varying varying(
+        [program](const Point3& position, double time) { return (*program)(position, time); },
+        text);
+    const auto& used = program->parser.GetUsedVar();
+    varying.in_time = used.count("t") > 0;
+    varying.in_space = used.size() > (varying.in_time ? 1u : 0u);
+    return varying;
   } catch (const mu::Parser::exception_type& error) {
     throw std::invalid_argument(error.GetMsg());
   }
 }
 
+namespace {
+
+/// Times at which straight lines between the values change their slope.
+std::vector<double> bends_of(const std::vector<double>& times, const std::vector<double>& values) {
+  constexpr double straight = 1e-9;
+  std::vector<double> bends;
+  double before = 0.0;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const bool last = i + 1 == times.size();
+    const double after = last ? 0.0 : (values[i + 1] - values[i]) / (times[i + 1] - times[i]);
+    if (std::abs(after - before) > straight * (std::abs(after) + std::abs(before)))
+      bends.push_back(times[i]);
+    before = after;
+  }
+  return bends;
+}
+
+}  // namespace
+
 Varying interpolate_in_time(std::vector<double> times, std::vector<double> values,
                             std::string text) {
+  std::vector<double> bends = bends_of(times, values);
   const auto at = [times = std::move(times), values = std::move(values)](const Point3&, double t) {
     const auto after = std::upper_bound(times.begin(), times.end(), t);
     if (after == times.begin()) return values.front();
@@ -65,7 +90,10 @@ Varying interpolate_in_time(std::vector<double> times, std::vector<double> value
     const double share = (t - times[i - 1]) / (times[i] - times[i - 1]);
     return values[i - 1] + share * (values[i] - values[i - 1]);
   };
-  return {at, std::move(text)};
+  Varying varying(at, std::move(text));
+  varying.in_space = false;
+  varying.bends = std::move(bends);
+  return varying;
 }
 
 }  // namespace mudlark

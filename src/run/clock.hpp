@@ -12,9 +12,10 @@ namespace mudlark {
 
 class Clock {
  public:
-  /// Things fall due every `periods` seconds, and at `times`; `end` closes the run.
-  Clock(const TimeOptions& options, std::vector<double> periods)
-      : options_(options), periods_(std::move(periods)) {
+  /// Things fall due every `periods` seconds, and at `times`; `end` closes the run. Steps end at
+  /// `bends`, too, ascending: what drives the run changes there.
+  Clock(const TimeOptions& options, std::vector<double> periods, std::vector<double> bends = {})
+      : options_(options), periods_(std::move(periods)), bends_(std::move(bends)) {
     if (options.output_every > 0.0) periods_.push_back(options.output_every);
   }
 
@@ -63,6 +64,8 @@ class Clock {
       const double multiple = (passed + 1.0) * period;
       if (multiple < written - 1e-9 * period) next = std::min(next, multiple);
     }
+    const auto bend = std::upper_bound(bends_.begin(), bends_.end(), time_ * (1.0 + 1e-9));
+    if (bend != bends_.end() && *bend < next * (1.0 - 1e-9)) next = *bend;
     return next;
   }
   /// Step no longer than `stable`, so that equal steps reach the next event exactly [s].
@@ -92,7 +95,7 @@ class Clock {
   }
 
   TimeOptions options_;
-  std::vector<double> periods_;
+  std::vector<double> periods_, bends_;
   double time_ = 0.0;
   std::int64_t step_ = 0, stage_ = 0;
   bool stopped_ = false;

@@ -17,13 +17,37 @@ std::vector<double> gauge_periods(const CaseOptions& options) {
   return periods;
 }
 
+/// When tables of what drives soil in implicit steps bend: no step may pass a load that comes and
+/// goes. Explicit steps are short enough.
+std::vector<double> bends_of(const CaseOptions& options) {
+  std::vector<double> bends;
+  if (!options.soil || !takes_implicit_steps(*options.soil)) return bends;
+  const SoilOptions& soil = *options.soil;
+  const auto add = [&](const Varying& value) {
+    bends.insert(bends.end(), value.bends.begin(), value.bends.end());
+  };
+  for (const SurfaceLoad& load : soil.loads) add(load.pressure);
+  for (const SoilBoundary& boundary : soil.boundaries) {
+    add(boundary.value);
+    for (const Varying& component : boundary.motion) add(component);
+  }
+  for (const SolidOptions& solid : soil.solids) {
+    if (const auto* led = std::get_if<PrescribedSolid>(&solid.motion))
+      for (std::size_t a = 0; a < 3; ++a) add(led->translation[a]), add(led->rotation[a]);
+    if (const auto* free = std::get_if<FreeSolid>(&solid.motion))
+      for (std::size_t a = 0; a < 3; ++a) add(free->force[a]), add(free->moment[a]);
+  }
+  std::sort(bends.begin(), bends.end());
+  return bends;
+}
+
 }  // namespace
 
 template <int D>
 World<D>::World(const CaseOptions& options, MPI_Comm comm)
     : options_(options),
       grid_(options.domain, comm),
-      clock_(options.time, gauge_periods(options)),
+      clock_(options.time, gauge_periods(options), bends_of(options)),
       fixed_(grid_),
       medium_(grid_),
       meters_(grid_, options.gauges) {

@@ -30,7 +30,7 @@ void SurfaceLoads<D>::begin_step(double begin, double length, const FluidLoad<D>
   water_ = water;
   box_ = box;
   steady_ = !water && std::none_of(loads_.begin(), loads_.end(),
-                                   [](const SurfaceLoad& load) { return !load.pressure.constant; });
+                                   [](const SurfaceLoad& load) { return load.pressure.in_time; });
   filled_ = false;
 }
 
@@ -47,8 +47,11 @@ void SurfaceLoads<D>::fill(double time, bool against_flow) {
   });
   for (const SurfaceLoad& load : loads_) {
     const bool on_water = load.on == LoadedPhase::water;
+    const double everywhere = load.pressure.in_space ? 0.0 : load.pressure({}, time);
     for_each(box_, [&](const Index<D>& cell) {
-      const double pressure = load.pressure(to_point3(grid_->cell_centre(cell)), time);
+      const double pressure = load.pressure.in_space
+                                  ? load.pressure(to_point3(grid_->cell_centre(cell)), time)
+                                  : everywhere;
       traction_[cell] += pressure;
       if (on_water) drained_[cell] += pressure;
     });

@@ -28,6 +28,20 @@ TEST(Expression, CopiesDoNotDisturbEachOther) {
   EXPECT_EQ(first({1, 0, 0}, 2.0), 3.0);
 }
 
+TEST(Expression, KnowsWhatItVariesWith) {
+  const Varying both = parse_expression("x*t"), place = parse_expression("x+z"),
+                time = parse_expression("sin(t)"), neither = parse_expression("2*pi");
+  EXPECT_TRUE(both.in_space && both.in_time);
+  EXPECT_TRUE(place.in_space && !place.in_time);
+  EXPECT_TRUE(!time.in_space && time.in_time);
+  EXPECT_TRUE(!neither.in_space && !neither.in_time);
+  const Varying table = interpolate_in_time({0.0, 1.0}, {0.0, 1.0}, "table");
+  EXPECT_TRUE(!table.in_space && table.in_time);
+  const Varying pulse =
+      interpolate_in_time({0.0, 1.0, 2.0, 3.0, 5.0, 6.0}, {0.0, 0.0, 1.0, 2.0, 0.0, 0.0}, "pulse");
+  EXPECT_EQ(pulse.bends, (std::vector<double>{1.0, 3.0, 5.0}));
+}
+
 TEST(Expression, WithoutVariablesIsAConstant) {
   EXPECT_TRUE(parse_expression("2*pi").constant);
   EXPECT_DOUBLE_EQ(parse_expression("2*pi")({}, 0), 2 * std::numbers::pi);

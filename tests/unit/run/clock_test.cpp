@@ -50,6 +50,17 @@ std::vector<double> visited(Clock& clock, double stable, unsigned seed = 1) {
   return times;
 }
 
+TEST(Clock, StepsEndWhereWhatDrivesTheRunBends) {
+  TimeOptions options = until(100.0);
+  options.output_every = 30.0;
+  Clock clock(options, {}, {0.0, 10.0, 10.5, 60.0 * (1.0 + 1e-15), 60.25, 200.0});
+  const std::vector<double> times = visited(clock, 50.0);
+  const std::set<double> all(times.begin(), times.end());
+  for (const double t : {10.0, 10.5, 30.0, 60.0, 60.25, 90.0, 100.0})
+    EXPECT_TRUE(all.count(t)) << t;
+  for (std::size_t i = 1; i < times.size(); ++i) EXPECT_GT(times[i] - times[i - 1], 0.2);
+}
+
 TEST(Clock, VisitsEveryMultipleOfEveryPeriodAndEveryOutputTimeExactly) {
   TimeOptions options = until(2.0);
   options.output_every = 0.1;

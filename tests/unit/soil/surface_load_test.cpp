@@ -243,7 +243,8 @@ TEST(SurfaceLoads, AreThoseOfTheMomentWithWaterLinearBetweenTheEndsOfTheStepAndA
 /// A load that swings within an outer step, and is the same at both of its ends.
 TEST(SurfaceLoads, ThatSwingWithinAStepAreFollowed) {
   const Grid<2> grid = make_grid<2>({6, 6, 1}, Wall::slip);
-  const Varying swinging([](const Point3&, double t) { return std::sin(t); }, "sin(t)");
+  Varying swinging([](const Point3&, double t) { return std::sin(t); }, "sin(t)");
+  swinging.in_space = false;
   SurfaceLoads<2> loads(grid, {{"swinging", swinging, LoadedPhase::water}});
   loads.begin_step(0.0, 2.0 * std::acos(-1.0), nullptr, grid.local());
   const Index<2> cell{{2, 3}};
