@@ -168,12 +168,11 @@ void VelocityExtension<D>::extend(const CellField<D>& unknown, const CellField<D
   keep_from_closing(unknown, water, porosity, drains, velocity);
 }
 
-/// Lists the faces that fly, and the cells beside them that may open but not close.
+/// Lists the faces that fly. Returns whether there are any on any rank.
 template <int D>
-void VelocityExtension<D>::find_flying(const double* unknown, const double* water,
-                                       const double* porosity, const double* drains) {
+bool VelocityExtension<D>::find_flying() {
   const Grid<D>& grid = *grid_;
-  keeps_open_.clear();
+  double any = 0.0;
   for (int axis = 0; axis < D; ++axis) {
     auto& faces = flies_[static_cast<std::size_t>(axis)];
     faces.clear();
@@ -181,7 +180,17 @@ void VelocityExtension<D>::find_flying(const double* unknown, const double* wate
     for_each_offset(*near_, grid.owned_faces(axis), [&](std::ptrdiff_t at) {
       if (state[at] == flying) faces.push_back(at);
     });
+    if (!faces.empty()) any = 1.0;
   }
+  return max_over_ranks(grid, any) > 0.0;
+}
+
+/// Lists the cells beside faces that fly that may open but not close.
+template <int D>
+void VelocityExtension<D>::find_cells_to_keep(const double* unknown, const double* water,
+                                              const double* porosity, const double* drains) {
+  const Grid<D>& grid = *grid_;
+  keeps_open_.clear();
   for_each_offset(*near_, grid.owned(), [&](std::ptrdiff_t at) {
     if (unknown[at] > 0.0 || drains[at] > 0.0 || water[at] <= dust * porosity[at]) return;
     bool free = false;
@@ -216,9 +225,9 @@ void VelocityExtension<D>::keep_from_closing(const CellField<D>& unknown, const 
                                              const CellField<D>& porosity,
                                              const CellField<D>& drains, FaceVector<D>& velocity) {
   const Grid<D>& grid = *grid_;
+  if (!find_flying()) return;
   ghosts_.exchange(state_);
-  find_flying(unknown.data(), water.data(), porosity.data(), drains.data());
-  if (max_over_ranks(grid, keeps_open_.empty() ? 0.0 : 1.0) == 0.0) return;
+  find_cells_to_keep(unknown.data(), water.data(), porosity.data(), drains.data());
   double* squeezed = squeeze_.data();
   for_each_offset(*near_, grid.local(), [&](std::ptrdiff_t at) { squeezed[at] = 0.0; });
   for (int pass = 0; pass < 3; ++pass) {

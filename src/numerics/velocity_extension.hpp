@@ -33,8 +33,9 @@ class VelocityExtension {
   void keep_from_closing(const CellField<D>& unknown, const CellField<D>& water,
                          const CellField<D>& porosity, const CellField<D>& drains,
                          FaceVector<D>& velocity);
-  void find_flying(const double* unknown, const double* water, const double* porosity,
-                   const double* drains);
+  bool find_flying();
+  void find_cells_to_keep(const double* unknown, const double* water, const double* porosity,
+                          const double* drains);
   double squeeze(std::ptrdiff_t at, const FaceVector<D>& velocity) const;
 
   const Grid<D>* grid_;
