@@ -17,8 +17,9 @@ constexpr double rises = 1e5, full = 1.001e5, falls = 1.002e5, gone = 1.003e5, e
 Varying pulse() {
   Varying varying(
       [](const Point3&, double t) {
-        return load * std::clamp(std::min((t - rises) / (full - rises), (gone - t) / (gone - falls)),
-                                 0.0, 1.0);
+        return load *
+               std::clamp(std::min((t - rises) / (full - rises), (gone - t) / (gone - falls)), 0.0,
+                          1.0);
       },
       "pulse");
   varying.in_space = false;
