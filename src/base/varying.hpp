@@ -13,7 +13,6 @@ namespace mudlark {
 struct Varying {
   std::function<double(const Point3&, double)> function;
   std::string text;
-  bool constant = true;
   bool in_space = true, in_time = true;  ///< may it vary with position, with time?
   std::vector<double> bends;             ///< ascending times at which a table bends [s]
 
@@ -24,7 +23,9 @@ struct Varying {
         in_space(false),
         in_time(false) {}
   Varying(std::function<double(const Point3&, double)> f, std::string written)
-      : function(std::move(f)), text(std::move(written)), constant(false) {}
+      : function(std::move(f)), text(std::move(written)) {}
+
+  bool constant() const { return !in_space && !in_time; }
 
   double operator()(const Point3& position, double time) const { return function(position, time); }
 };

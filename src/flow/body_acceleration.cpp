@@ -17,7 +17,7 @@ template <int D>
 template <class Body>
 void BodyAcceleration<D>::for_each_value(int axis, double time, Body&& body) const {
   const Varying& given = (*given_)[static_cast<std::size_t>(D == 2 && axis == 1 ? 2 : axis)];
-  if (given.constant && given({}, time) == 0.0) return;
+  if (given.constant() && given({}, time) == 0.0) return;
   for_each(bounding_faces(*grid_, axis), [&](const Index<D>& face) {
     body(face, given(to_point3(grid_->face_centre(axis, face)), time));
   });

@@ -149,7 +149,7 @@ GroundSideWater water_of(const SoilBoundary& part) {
   if (part.water == WaterSide::inflow) return GroundSideWater::inflow;
   if (part.water == WaterSide::seepage_face) return GroundSideWater::seepage_face;
   // A drain has no water to give either.
-  const bool drained = !part.is_head && part.value.constant && part.value({}, 0.0) == 0.0;
+  const bool drained = !part.is_head && part.value.constant() && part.value({}, 0.0) == 0.0;
   if (drained) return GroundSideWater::seepage_face;
   return part.is_head ? GroundSideWater::head : GroundSideWater::pressure;
 }
@@ -168,7 +168,7 @@ void check_head(Section& root, const DomainOptions& domain, const GroundSideOpti
   }
   place[axis] = (side.side == 0 ? domain.lower : domain.upper)[axis];
   const double head = side.value(point_from_axes(place), 0.0);
-  const bool below_part = side.value.constant && axis != up && head < side.from[2];
+  const bool below_part = side.value.constant() && axis != up && head < side.from[2];
   if (!below_part && head >= domain.lower[up]) return;
   const Value* value = root.raw("boundary");
   const auto* list = value ? std::get_if<List>(&value->data) : nullptr;

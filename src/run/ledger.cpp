@@ -59,7 +59,7 @@ bool is_led(const Solid& solid, std::size_t axis) {
   const auto* motion = std::get_if<FreeSolid>(&solid.options().motion);
   if (!motion || motion->locked[axis]) return true;
   const Varying& force = motion->force[axis];
-  return !force.constant || force({}, 0.0) != 0.0;
+  return !force.constant() || force({}, 0.0) != 0.0;
 }
 
 template <int D>

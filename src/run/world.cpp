@@ -27,6 +27,8 @@ std::vector<double> bends_of(const CaseOptions& options) {
     bends.insert(bends.end(), value.bends.begin(), value.bends.end());
   };
   for (const SurfaceLoad& load : soil.loads) add(load.pressure);
+  if (soil.body_acceleration)
+    for (const Varying& component : *soil.body_acceleration) add(component);
   for (const SoilBoundary& boundary : soil.boundaries) {
     add(boundary.value);
     for (const Varying& component : boundary.motion) add(component);

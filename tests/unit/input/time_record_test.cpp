@@ -104,7 +104,7 @@ TEST_F(TimeRecordFile, GivesAVaryingValueInSiUnitsAndReadsBackTheSame) {
   const auto varying = load("{ csv = \"record.csv\", column = \"load\", factor = -2 }");
   ASSERT_TRUE(std::holds_alternative<Varying>(varying)) << std::get<std::string>(varying);
   EXPECT_DOUBLE_EQ(std::get<Varying>(varying)({}, 30.0), -10000.0);
-  EXPECT_FALSE(std::get<Varying>(varying).constant);
+  EXPECT_FALSE(std::get<Varying>(varying).constant());
   const std::string resolved = resolved_;
   write(resolved, "resolved.toml");
   const CaseOptions again = read_case(folder_ / "resolved.toml", {});
