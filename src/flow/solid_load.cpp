@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flow/wall_part.hpp"
 #include "numerics/loops.hpp"
 
 namespace mudlark {
@@ -122,33 +123,50 @@ void find_body_friction(const Grid<D>& grid, const SolidBodies<D>& solids,
   }
 }
 
+namespace {
+
+/// Adds what the water does to one piece of a body's surface.
+template <int D>
+void add_piece(const Grid<D>& grid, const SolidBodies<D>& solids, const CutCell<D>& cut,
+               const WallPressure<D>& pressure, const FaceVector<D>& velocity, double viscosity,
+               double ahead, SolidLoad& load) {
+  const RigidVelocity& motion = solids.velocity(cut.body);
+  const Eigen::Vector3d centre = solids.pose(cut.body).centre() + ahead * motion.velocity;
+  const Vec<D> middle = cut.middle + ahead * solids.velocity_at(cut.body, cut.middle);
+  const Eigen::Vector3d area = to_space<D>(cut.area);
+  const double p = pressure.mean(cut.cell, middle, wall_height(grid, cut));
+  Vec<D> total = (-p) * to_axes<D>(area + ahead * motion.spin.cross(area));
+  if (solids.options(cut.body).no_slip && pressure.wet(cut.cell)) {
+    const double drag = stress_per_speed(grid, cut, viscosity) * norm(cut.area);
+    for (int a = 0; a < D; ++a)
+      total[a] += 0.5 * drag * (velocity[a][cut.cell] + velocity[a][cut.cell.shifted(a, 1)]);
+  }
+  if (p == pressure.at(cut.cell, middle)) {  // no surface of the water in the cell
+    const Vec<D> slope = pressure.slope(cut.cell);
+    for (int a = 0; a < D; ++a) total[a] -= dot(slope, cut.spread[static_cast<std::size_t>(a)]);
+  }
+  const Eigen::Vector3d force = to_space<D>(total);
+  load.force += force;
+  load.moment += (to_space<D>(middle) - centre).cross(force) - p * turning(cut);
+}
+
+}  // namespace
+
 template <int D>
 SolidLoad load_on(const Grid<D>& grid, const SolidBodies<D>& solids, std::size_t body,
                   const std::optional<BoxShape>& part, const WallPressure<D>& pressure,
                   const FaceVector<D>& velocity, double viscosity, double ahead) {
-  const Eigen::Vector3d centre =
-      solids.pose(body).centre() + ahead * solids.velocity(body).velocity;
   SolidLoad load;
   for (const CutCell<D>& cut : solids.surface()) {
     if (cut.body != body) continue;
-    const Point3 place = to_point3(cut.middle);
-    if (part && !Shape{*part}.contains(place)) continue;
-    const Vec<D> middle = cut.middle + ahead * solids.velocity_at(body, cut.middle);
-    const Eigen::Vector3d area = to_space<D>(cut.area);
-    const double p = pressure.mean(cut.cell, middle, wall_height(grid, cut));
-    Vec<D> total = (-p) * to_axes<D>(area + ahead * solids.velocity(body).spin.cross(area));
-    if (solids.options(body).no_slip && pressure.wet(cut.cell)) {
-      const double drag = stress_per_speed(grid, cut, viscosity) * norm(cut.area);
-      for (int a = 0; a < D; ++a)
-        total[a] += 0.5 * drag * (velocity[a][cut.cell] + velocity[a][cut.cell.shifted(a, 1)]);
+    const auto add = [&](const CutCell<D>& piece) {
+      add_piece(grid, solids, piece, pressure, velocity, viscosity, ahead, load);
+    };
+    if (!part) {
+      add(cut);
+      continue;
     }
-    if (p == pressure.at(cut.cell, middle)) {  // no surface of the water in the cell
-      const Vec<D> slope = pressure.slope(cut.cell);
-      for (int a = 0; a < D; ++a) total[a] -= dot(slope, cut.spread[static_cast<std::size_t>(a)]);
-    }
-    const Eigen::Vector3d force = to_space<D>(total);
-    load.force += force;
-    load.moment += (to_space<D>(middle) - centre).cross(force) - p * turning(cut);
+    for (const CutCell<D>& piece : part_of_wall(grid, cut, *part)) add(piece);
   }
   for (int a = 0; a < 3; ++a) {
     load.force[a] = sum_over_ranks(grid, load.force[a]);

@@ -48,9 +48,9 @@ class WallPressure {
   double density_;
 };
 
-/// Sum over the cells of a body's surface of -p n, and of the shear on no-slip bodies; those whose
-/// middle lies in `part`. `viscosity` is dynamic [Pa s]. With `ahead` [s] the body is where it will
-/// be then, in the present water. Collective.
+/// Sum over the cells of a body's surface of -p n, and of the shear on no-slip bodies; of what lies
+/// in `part`, where given. `viscosity` is dynamic [Pa s]. With `ahead` [s] the body is where it
+/// will be then, in the present water. Collective.
 template <int D>
 SolidLoad load_on(const Grid<D>& grid, const SolidBodies<D>& solids, std::size_t body,
                   const std::optional<BoxShape>& part, const WallPressure<D>& pressure,

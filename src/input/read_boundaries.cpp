@@ -39,10 +39,20 @@ const std::vector<Choice<GrainSide>> plain_grains{{"slip", GrainSide::slip},
                                                   {"open", GrainSide::open},
                                                   {"absorbing", GrainSide::absorbing}};
 
+/// The word alone: as a table without further keys.
+void read_absorbing_word(Section& section, SoilBoundary& boundary) {
+  boundary.grains = GrainSide::absorbing;
+  const Table none;
+  Record& record = section.record().child("grains", Record::Form::inline_table);
+  record.value("type", "\"absorbing\"");
+  Section table = section.over(none, section.place("grains"), "grains", record);
+  read_absorbing(table, boundary);
+}
+
 /// A word, or { type = ..., ... }.
 void read_grains(Section& section, SoilBoundary& boundary) {
   const Value* value = section.raw("grains");
-  if (!value) return;
+  if (!value) return section.record().remark("grains: as [domain.walls] says");
   boundary.for_grains = true;
   if (!std::holds_alternative<Table>(value->data)) {
     const auto* word = std::get_if<std::string>(&value->data);
@@ -51,6 +61,7 @@ void read_grains(Section& section, SoilBoundary& boundary) {
                           *word == "friction"
                               ? "Write { type = \"friction\", friction_coefficient = 0.5 }."
                               : "Write { type = \"moving\", displacement = [...] }.");
+    if (word && *word == "absorbing") return read_absorbing_word(section, boundary);
     boundary.grains = section.choice<GrainSide>("grains", plain_grains);
     return;
   }
@@ -92,7 +103,7 @@ void read_water_value(Section& table, WaterWord word, bool level, SoilBoundary& 
 
 void read_water(Section& section, const DomainOptions& domain, SoilBoundary& boundary) {
   const Value* value = section.raw("pore_water");
-  if (!value) return;
+  if (!value) return section.record().remark("pore_water: sealed, but for an open side");
   boundary.for_water = true;
   WaterWord word;
   if (!std::holds_alternative<Table>(value->data)) {

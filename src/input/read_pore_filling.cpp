@@ -5,13 +5,15 @@
 
 namespace mudlark {
 
-PoreFilling read_pore_filling(Section& section, PoreFilling fallback) {
+PoreFilling read_pore_filling(Section& section, PoreFilling fallback, bool has_curve) {
   PoreFilling filling = fallback;
-  if (section.has("relative_permeability")) {
+  const bool given = section.has("relative_permeability");
+  if (given || has_curve) {
     Section curve = section.table("relative_permeability", Record::Form::inline_table);
     filling.curve = curve.choice<PermeabilityCurve>(
         "type",
-        {{"power", PermeabilityCurve::power}, {"van-genuchten", PermeabilityCurve::van_genuchten}});
+        {{"power", PermeabilityCurve::power}, {"van-genuchten", PermeabilityCurve::van_genuchten}},
+        given ? std::nullopt : std::optional(PermeabilityCurve::power));
     if (filling.curve == PermeabilityCurve::van_genuchten)
       filling.exponent = curve.number("n", quantity::number,
                                       {.lower = 1.0,

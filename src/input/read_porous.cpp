@@ -127,7 +127,7 @@ void read_porous(Section& root, CaseOptions& options, std::vector<NamedShape>& g
   for (Section& section : root.tables("porous")) {
     PorousGround ground;
     ground.name = read_name(section, names);
-    const auto shape = read_shape(section, "shape", true);
+    const auto shape = read_shape(section, "shape", Reach::anywhere);
     ground.porosity =
         section.number("porosity", quantity::number,
                        {.lower = 0.0,
@@ -136,7 +136,7 @@ void read_porous(Section& root, CaseOptions& options, std::vector<NamedShape>& g
                         .reason = "the share of pores in the volume lies between 0 and 1",
                         .cure = "Rubble has about 0.4."});
     read_drag(section, ground, *options.flow);
-    ground.filling = read_pore_filling(section, ground.filling);
+    ground.filling = read_pore_filling(section, ground.filling, !options.flow->gas);
     if (section.has("relative_permeability") && options.flow->gas)
       section.fail("relative_permeability",
                    "with gas beside the water both fill the pores, and both resist alike",

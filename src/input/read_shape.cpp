@@ -242,16 +242,26 @@ std::optional<Shape> read_form(Section& shape, const Place& place, int depth) {
   return form;
 }
 
-bool inside_domain(const BoxShape& box, const BoxShape& domain, bool may_leave) {
-  bool touches = true, leaves = false;
-  for (std::size_t a = 0; a < 3; ++a) {
-    if (std::isinf(domain.lower[a])) continue;
-    const double slack = 1e-9 * (domain.upper[a] - domain.lower[a]);
-    leaves = leaves || (std::isfinite(box.lower[a]) && box.lower[a] < domain.lower[a] - slack);
-    leaves = leaves || (std::isfinite(box.upper[a]) && box.upper[a] > domain.upper[a] + slack);
-    touches = touches && box.lower[a] < domain.upper[a] && box.upper[a] > domain.lower[a];
-  }
-  return touches && (may_leave || !leaves);
+/// Does the box have something of the domain, but for the faces of both?
+bool meets(const BoxShape& box, const BoxShape& domain) {
+  for (std::size_t a = 0; a < 3; ++a)
+    if (!std::isinf(domain.lower[a]) &&
+        !(box.lower[a] < domain.upper[a] && box.upper[a] > domain.lower[a]))
+      return false;
+  return true;
+}
+
+/// "0 to 10 m along x and 0 to 2 m along z"
+std::string extent_of(const BoxShape& domain) {
+  std::string words;
+  for (std::size_t a = 0; a < 3; ++a)
+    if (!std::isinf(domain.lower[a]))
+      words += fmt::format("{}{:g} to {:g} m along {}",
+                           words.empty() ? ""
+                           : a == 2      ? " and "
+                                         : ", ",
+                           domain.lower[a], domain.upper[a], "xyz"[a]);
+  return words;
 }
 
 bool overlap(const Shape& one, const Shape& other, const BoxShape& domain) {
@@ -277,7 +287,7 @@ bool overlap(const Shape& one, const Shape& other, const BoxShape& domain) {
 
 }  // namespace
 
-std::optional<Shape> read_shape(Section& section, std::string_view key, bool may_leave) {
+std::optional<Shape> read_shape(Section& section, std::string_view key, Reach reach) {
   if (!section.has(key)) {
     section.missing(key, "for example { box = { lower = [0, 0], upper = [1, 1] } }");
     return {};
@@ -286,11 +296,24 @@ std::optional<Shape> read_shape(Section& section, std::string_view key, bool may
   if (!std::holds_alternative<Table>(section.raw(key)->data)) return {};
   auto form = read_form(shape, section.place(key), 0);
   const auto& domain = section.reading().domain;
-  if (!form || !domain || inside_domain(bounds(*form), *domain, may_leave)) return form;
-  section.fail(key,
-               may_leave ? "it lies outside the domain"
-                         : "it lies outside the domain, or reaches over its edge",
-               "Make the shape smaller or the domain larger.");
+  if (!form || !domain) return form;
+  const BoxShape box = bounds(*form);
+  const double top = domain->upper[2], slack = 1e-9 * (top - domain->lower[2]);
+  if (!meets(box, *domain)) {
+    section.fail(key, fmt::format("it lies outside the domain, which is {}", extent_of(*domain)),
+                 "Move the shape, or make the domain larger.");
+  } else if (reach == Reach::below_the_top && std::isfinite(box.upper[2]) &&
+             box.upper[2] > top + slack) {
+    section.fail(
+        key,
+        fmt::format("it reaches up to z = {:g} m, over the domain's top at {:g} m, and the "
+                    "weight of what lies above would be missing",
+                    box.upper[2], top),
+        "Make the domain higher, or end the shape at its top. Over sides and bottom it may "
+        "reach: it ends there.");
+  } else {
+    return form;
+  }
   return {};
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "input/sections.hpp"
+#include "materials/registry.hpp"
 
 namespace mudlark {
 namespace {
@@ -95,6 +96,16 @@ void read_initial_stress(Section& soil, SoilBody& body) {
   }
 }
 
+/// K0 that the law gives where nothing else is written, for the reader of the resolved case.
+void remark_lateral(Section& section, const SoilBody& body) {
+  const auto* geostatic = std::get_if<GeostaticStress>(&body.initial_stress);
+  if (!geostatic || geostatic->lateral_coefficient >= 0.0 || !section.reading().report.empty())
+    return;
+  section.record().remark(
+      fmt::format("lateral_coefficient = {:.6g} of \"geostatic\", that of the law",
+                  make_soil_model(body.law)->earth_pressure_at_rest()));
+}
+
 /// How grains and pore water of all soils move: they share the grid.
 void read_formulation(Section& section, const WaterProperties& water, SoilOptions& soil) {
   const Formulation formulation = section.choice<Formulation>(
@@ -180,7 +191,7 @@ void read_pore_water(Section& section, SoilBody& body, const WaterProperties& wa
                                          {"kozeny-carman", PermeabilityLaw::kozeny_carman}},
                                         body.permeability_law);
   if (unified)
-    body.filling = read_pore_filling(section, body.filling);
+    body.filling = read_pore_filling(section, body.filling, true);
   else
     for (const char* key : {"relative_permeability", "suction", "initial_saturation"})
       section.forbid(key, "pores that are not full are known with pore_water = \"unified\"");
@@ -232,6 +243,7 @@ void read_soil(Section& root, CaseOptions& options, const WaterProperties& water
     read_initial_stress(section, body);
     body.initial_velocity = section.varying_per_axis("initial_velocity", quantity::velocity);
     read_law(section, water.viscosity, body);
+    remark_lateral(section, body);
     section.finish();
     if (shape) {
       body.shape = *shape;

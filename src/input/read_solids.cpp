@@ -182,11 +182,13 @@ SolidOptions read_solid(Section& section, bool in_soil, bool rubs,
                         std::vector<std::string>& names) {
   SolidOptions solid;
   solid.name = read_name(section, names);
-  if (const auto shape = read_shape(section, "shape", true)) solid.shape = *shape;
+  if (const auto shape = read_shape(section, "shape", Reach::anywhere)) solid.shape = *shape;
   if (section.has("centre")) {
     const auto axes = static_cast<std::size_t>(section.reading().dimension);
     const auto centre = section.numbers("centre", quantity::length, axes);
     if (centre.size() == axes) solid.centre = point_from_axes(centre);
+  } else {
+    section.record().remark("centre: that of mass");
   }
   read_motion(section, solid);
   if (rubs)

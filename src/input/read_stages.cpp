@@ -94,6 +94,26 @@ void read_settings(Stage& stage, double began, double end) {
   if (section.has("loads")) stage.load_names = read_load_names(section);
 }
 
+/// What the stage does not say itself, for the reader of the resolved case.
+void remark_inherited(Stage& stage, const SoilOptions& soil) {
+  Record& record = stage.section.record();
+  const SoilStage& own = stage.soil;
+  const bool steps_implicitly = own.method.value_or(soil.method) == TimeMethod::implicit_steps;
+  if (!own.method)
+    record.remark(fmt::format("method = \"{}\", that of [soil_solver]",
+                              steps_implicitly ? "implicit" : "explicit"));
+  const auto inherit = [&](std::string_view key, bool given, double value) {
+    if (!given && !steps_implicitly)
+      record.remark(fmt::format("{} = {}, that of [soil_solver]", key, toml_number(value)));
+  };
+  inherit("damping", own.damping.has_value(), soil.damping);
+  if (!own.damping && !is_unified(soil))  // whose water is the flow's; with damping it is that
+    inherit("water_damping", own.water_damping.has_value(),
+            soil.water_damping.value_or(soil.damping));
+  inherit("mass_scaling", own.mass_scaling.has_value(), soil.mass_scaling);
+  if (!own.loads) record.remark("loads: all");
+}
+
 }  // namespace
 
 std::vector<Stage> read_stages(Section& root, CaseOptions& options) {
@@ -118,9 +138,9 @@ std::vector<Stage> read_stages(Section& root, CaseOptions& options) {
       if (first && stage.section.has(key))
         stage.section.fail(key, "it is for stages that follow another one",
                            "Write it in a later [[stage]].");
-    if (stage.section.has("remove")) stage.soil.remove = read_shape(stage.section, "remove");
-    if (stage.section.has("reset_displacements"))
-      stage.soil.reset_displacements = stage.section.flag("reset_displacements", false);
+    if (stage.section.has("remove"))
+      stage.soil.remove = read_shape(stage.section, "remove", Reach::anywhere);
+    if (!first) stage.soil.reset_displacements = stage.section.flag("reset_displacements", false);
     stage.section.finish();
   }
   return stages;
@@ -138,6 +158,7 @@ void finish_stages(std::vector<Stage>& stages, CaseOptions& options) {
   for (Stage& stage : stages) {
     find_loads(stage, soil);
     check_method(stage, soil, options.flow.has_value());
+    remark_inherited(stage, soil);
     soil.stages.push_back(stage.soil);
   }
   if (soil.start_in_equilibrium && soil.stages.front().method.value_or(soil.method) != soil.method)

@@ -5,13 +5,14 @@ namespace mudlark {
 
 TurbulenceOptions read_turbulence(Section& water) {
   TurbulenceOptions out;
-  if (!water.has("turbulence")) return out;
+  const bool given = water.has("turbulence");
   const std::size_t mistakes = water.reading().report.size();
   Section section = water.table("turbulence", Record::Form::block);
-  out.model =
-      section.choice<TurbulenceModel>("model", {{"none", TurbulenceModel::none},
-                                                {"smagorinsky", TurbulenceModel::smagorinsky},
-                                                {"k-epsilon", TurbulenceModel::k_epsilon}});
+  out.model = section.choice<TurbulenceModel>("model",
+                                              {{"none", TurbulenceModel::none},
+                                               {"smagorinsky", TurbulenceModel::smagorinsky},
+                                               {"k-epsilon", TurbulenceModel::k_epsilon}},
+                                              given ? std::nullopt : std::optional(out.model));
   if (water.reading().report.size() > mistakes) return out;  // the rest depends on the model
   if (out.model == TurbulenceModel::smagorinsky)
     out.constant = section.number("constant", quantity::number,

@@ -127,9 +127,12 @@ void read_gauge_section(Section& gauge, GaugeRange& range);
 void read_solid_part(Section& gauge, GaugeRange& range);
 void read_run_up_range(Section& gauge, GaugeOptions& options);
 
-/// The shape below `key`, inside the domain, unless it may reach over its edge; nothing after a
-/// mistake.
-std::optional<Shape> read_shape(Section& section, std::string_view key, bool may_leave = false);
+/// How far a shape may reach. What lies beyond the domain's edge does not count, and over the top
+/// that would be weight on what lies below it.
+enum class Reach { below_the_top, anywhere };
+/// The shape below `key`, at least a part of which lies in the domain; nothing after a mistake.
+std::optional<Shape> read_shape(Section& section, std::string_view key,
+                                Reach reach = Reach::below_the_top);
 /// { line = ... } or { file = ... }: everything below that ground; nothing after a mistake.
 std::optional<Shape> read_ground(Section& section);
 /// { stl = "file.stl", scale = , offset = } of a shape; nothing after a mistake.
@@ -139,8 +142,9 @@ std::optional<Shape> read_stl(Section& shape);
 /// gravity.
 std::optional<double> read_permeability(Section& section, double density, double viscosity,
                                         bool required);
-/// relative_permeability and suction of pores that are not full.
-PoreFilling read_pore_filling(Section& section, PoreFilling fallback);
+/// relative_permeability and suction of pores that are not full. `has_curve`: false where gas fills
+/// them and no default of the first holds.
+PoreFilling read_pore_filling(Section& section, PoreFilling fallback, bool has_curve);
 /// Reports bodies of ground, or rigid ones, that fill the same space.
 void check_overlaps(Reading& reading, const std::vector<NamedShape>& grounds);
 

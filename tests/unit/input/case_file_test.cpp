@@ -112,6 +112,108 @@ TEST_F(CaseFile, ResolvedInputReadsBackToTheSameInput) {
             std::string::npos);
 }
 
+TEST_F(CaseFile, ResolvedInputSaysDefaultsThatDependOnTheCase) {
+  const CaseOptions options = read(R"([domain]
+upper = [4, 2]
+cells = [8, 8]
+walls = { upper_z = "open" }
+[water]
+[[water.body]]
+shape = { box = { lower = [0, 0], upper = [4, 1] } }
+[[stage]]
+name = "rest"
+end = 1
+[[stage]]
+name = "run"
+end = 2
+damping = 0.2
+[[soil]]
+name = "bed"
+shape = { box = { lower = [0, 0], upper = [4, 0.5] } }
+porosity = 0.4
+pore_water = "unified"
+hydraulic_conductivity = 1e-4
+initial_stress = "geostatic"
+law = { type = "mohr-coulomb", young_modulus = 1e7, poisson_ratio = 0.3, friction_angle = 30 }
+[[porous]]
+name = "rubble"
+shape = { box = { lower = [1, 0.5], upper = [2, 0.75] } }
+porosity = 0.4
+drag = { type = "ergun", grain_size = 0.1 }
+[[boundary]]
+name = "river"
+side = "lower_x"
+pore_water = { type = "head", head = 1 }
+[coupling]
+mode = "unified"
+[soil_solver]
+damping = 0.7
+)");
+  for (const char* words :
+       {"relative_permeability = { type = \"power\", exponent = 3, residual_saturation = 0 }",
+        "relative_permeability = { type = \"power\", exponent = 1, residual_saturation = 0 }",
+        "[water.turbulence]\nmodel = \"none\"", "# lateral_coefficient = 0.5 of \"geostatic\"",
+        "# grains: as [domain.walls] says", "# damping = 0.7, that of [soil_solver]",
+        "# loads: all", "reset_displacements = false"})
+    EXPECT_NE(options.resolved_toml.find(words), std::string::npos) << words;
+  EXPECT_EQ(read(options.resolved_toml).resolved_toml, options.resolved_toml);
+}
+
+TEST_F(CaseFile, AbsorbingSidesSayTheirDashpots) {
+  const CaseOptions options = read(R"([domain]
+upper = [1, 1]
+cells = [4, 4]
+[time]
+end = 1
+[[soil]]
+name = "ground"
+shape = { box = { lower = [0, 0], upper = [1, 0.5] } }
+porosity = 0.4
+pore_water = "none"
+law = { type = "linear-elastic", young_modulus = 1e7, poisson_ratio = 0.3 }
+[[boundary]]
+name = "base"
+side = "lower_z"
+grains = "absorbing"
+)");
+  EXPECT_EQ(options.soil->boundaries[0].grains, GrainSide::absorbing);
+  EXPECT_NE(
+      options.resolved_toml.find("grains = { type = \"absorbing\", normal = 1, tangential = 1 }"),
+      std::string::npos);
+  EXPECT_EQ(read(options.resolved_toml).resolved_toml, options.resolved_toml);
+}
+
+/// Half a heap beside a plane of symmetry, a bank that goes on behind the side, water over both.
+TEST_F(CaseFile, GroundAndWaterMayReachOverSidesAndBottom) {
+  const CaseOptions options = read(R"([domain]
+upper = [4, 2]
+cells = [16, 8]
+[time]
+end = 1
+[water]
+[[water.body]]
+shape = { box = { lower = [-1, -1], upper = [5, 1.5] } }
+[[soil]]
+name = "heap"
+shape = { circle = { centre = [0, 0], radius = 0.5 } }
+porosity = 0.4
+pore_water = "unified"
+hydraulic_conductivity = 1e-4
+law = { type = "linear-elastic", young_modulus = 1e7, poisson_ratio = 0.3 }
+[[soil]]
+name = "bank"
+shape = { polygon = { corners = [[2, -1], [6, -1], [6, 1.8], [4.5, 1.8]] } }
+porosity = 0.4
+pore_water = "unified"
+hydraulic_conductivity = 1e-4
+law = { type = "linear-elastic", young_modulus = 1e7, poisson_ratio = 0.3 }
+[coupling]
+mode = "unified"
+)");
+  EXPECT_EQ(options.soil->bodies.size(), 2u);
+  EXPECT_EQ(read(options.resolved_toml).resolved_toml, options.resolved_toml);
+}
+
 TEST_F(CaseFile, EveryShippedCaseIsValidAndReadsBack) {
   int count = 0;
   for (const auto& entry :

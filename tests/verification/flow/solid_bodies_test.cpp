@@ -76,6 +76,51 @@ TEST(SolidBodies, PressureOnACaissonIsHydrostaticToRoundOff) {
   EXPECT_NEAR(run.flow.solid_load(0, part).force[0], low, 1e-9 * low);
 }
 
+/// Parts whose edges lie anywhere between the faces of cells: each piece of a plane counts by what
+/// lies in the part, so parts add up and none jumps as an edge passes the middle of a cell.
+TEST(SolidBodies, PressureOnAPartOfACaissonIsThatOfItsShareOfEachCell) {
+  FlowOptions options;
+  options.bodies = {water_box({-1.0, -1.0, -1.0}, {0.6, 2.0, 0.537})};
+  options.solids = {body("caisson", {BoxShape{{0.43, -9.0, -1.0}, {0.71, 9.0, 0.63}}})};
+  FlowRun<2> run(flow_domain({32, 24, 1}, {1.0, 0.75, 1.0}, {0.0, -9.81, 0.0}), options);
+  for (int step = 0; step < 20; ++step) run.step(0.5 * run.flow.stable_step(run.medium));
+  for (const double top : {0.2344, 0.25, 0.2587, 0.265625, 0.2657, 0.28, 0.51}) {
+    const BoxShape part{{0.0, -9.0, -1.0}, {1.0, 9.0, top}};
+    const double force = 9810.0 * top * (0.537 - 0.5 * top);
+    EXPECT_NEAR(run.flow.solid_load(0, part).force[0], force, 1e-9 * force) << top;
+  }
+}
+
+/// On a sloping wall a strip counts by its own length, in the plane and in space. What touches the
+/// box counts up to 1e-9 of a cell beyond it, a share of 3e-9 of the narrow strip.
+template <int D>
+void check_strip_of_a_slope() {
+  FlowOptions options;
+  options.bodies = {water_box({-1.0, -1.0, -1.0}, {2.0, 2.0, 0.537})};
+  const double slope = 0.6;  // the wall is x = 0.4 + slope z, the body lies behind it
+  options.solids = {
+      body("wall", polygon({{0.4 - slope, -1.0}, {0.4 + slope, 1.0}, {9.0, 1.0}, {9.0, -1.0}}))};
+  FlowRun<D> run(
+      flow_domain({32, D == 2 ? 24 : 9, D == 2 ? 1 : 24}, {1.0, D == 2 ? 0.75 : 0.28125, 0.75},
+                  {0.0, D == 2 ? -9.81 : 0.0, D == 2 ? 0.0 : -9.81}),
+      options);
+  for (int step = 0; step < 5; ++step) run.step(0.5 * run.flow.stable_step(run.medium));
+  const double width = D == 2 ? 1.0 : 0.041;
+  for (const double low : {0.1, 0.1103, 0.1211}) {
+    const double high = low + 0.137;
+    const BoxShape part{{-9.0, D == 2 ? -9.0 : 0.02, low}, {9.0, D == 2 ? 9.0 : 0.061, high}};
+    const double push = 9810.0 * width * (high - low) * (0.537 - 0.5 * (high + low));
+    const Eigen::Vector3d force = run.flow.solid_load(0, part).force;
+    EXPECT_NEAR(force[0], push, 1e-8 * push) << low;
+    EXPECT_NEAR(force[2], -slope * push, 1e-8 * push) << low;
+  }
+}
+
+TEST(SolidBodies, PressureOnAStripOfASlopeIsThatOfItsShareOfEachCell) {
+  check_strip_of_a_slope<2>();
+  check_strip_of_a_slope<3>();
+}
+
 TEST(SolidBodies, WaterSlipsAlongAnInclinedChannelWithoutLoss) {
   // A full channel between two parallel walls at an angle, without gravity and viscosity, open at
   // both ends: water keeps its speed until it leaves.
