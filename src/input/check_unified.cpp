@@ -52,11 +52,6 @@ std::vector<std::string> excluded(const CaseOptions& options) {
               part.grains != GrainSide::fixed && part.grains != GrainSide::friction;
      }),
      "a [[boundary]] whose grains are neither \"slip\", \"fixed\" nor \"friction\"");
-  no(has([&](const SoilBoundary& part) {
-       return options.domain.walls[static_cast<std::size_t>(part.axis)]
-                                  [static_cast<std::size_t>(part.side)] == Wall::open;
-     }),
-     "a [[boundary]] on an \"open\" wall");
   no(soil.water_damping.value_or(soil.damping) != soil.damping,
      "a soil_solver.water_damping of its own, as the water is the flow's,");
   no(std::any_of(soil.stages.begin(), soil.stages.end(),
@@ -72,6 +67,28 @@ std::vector<std::string> excluded(const CaseOptions& options) {
   no(free && soil.start_in_equilibrium,
      "soil_solver.start_in_equilibrium under a [[solid]] that moves freely");
   return words;
+}
+
+/// A boundary speaks of a side that holds the grains.
+void check_open_sides(Section& root, const CaseOptions& options) {
+  const Value* value = root.raw("boundary");
+  const auto* list = value ? std::get_if<List>(&value->data) : nullptr;
+  const auto& boundaries = options.soil->boundaries;
+  for (std::size_t b = 0; b < boundaries.size(); ++b) {
+    const SoilBoundary& part = boundaries[b];
+    if (options.domain.walls[static_cast<std::size_t>(part.axis)]
+                            [static_cast<std::size_t>(part.side)] != Wall::open)
+      continue;
+    const std::string side = fmt::format("{}_{}", part.side == 0 ? "lower" : "upper",
+                                         "xyz"[coordinate(part.axis, options.domain.dimension)]);
+    root.reading().report.add(
+        list && b < list->size() ? (*list)[b].place : root.place("boundary"),
+        fmt::format(
+            "boundary \"{}\" is not possible\n  ({} is \"open\" under [domain.walls], and "
+            "with coupling.mode = \"unified\" boundaries are for sides that hold the grains). "
+            "Leave {} out there or write \"slip\" or \"no-slip\", or leave the boundary out.",
+            part.name, side, side));
+  }
 }
 
 /// Cells that soil keeps away from sides that water flows through, as wide as its kernel reaches.
@@ -213,6 +230,7 @@ void check_unified(Section& root, CaseOptions& options) {
   for (const std::string& what : excluded(options))
     report.add(root.place("coupling"),
                fmt::format("coupling.mode = \"unified\" does not go with {} yet", what));
+  check_open_sides(root, options);
   if (report.empty()) keep_clear(root, options);
   const auto& bodies = options.soil->bodies;
   for (const SoilBody& body : bodies)

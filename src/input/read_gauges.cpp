@@ -153,10 +153,18 @@ void read_own_keys(Section& section, const CaseOptions& options, GaugeOptions& g
                      gauge.quantity == GaugeQuantity::solid_moment);
   if (run_up) read_run_up_range(section, gauge);
   if (load) read_solid_part(section, gauge.range);
-  for (const char* key : {"from", "to", "thickness"})
-    if (!run_up && !(load && std::string_view(key) != "thickness"))
-      section.forbid(key, section_of ? "the extent of a section belongs into section = { ... }"
-                                     : "it belongs to quantity = \"run_up\"");
+  const bool whole = !load && (gauge.quantity == GaugeQuantity::solid_force ||
+                               gauge.quantity == GaugeQuantity::solid_moment);
+  for (const char* key : {"from", "to", "thickness"}) {
+    const bool thickness = std::string_view(key) == "thickness";
+    if (!run_up && !(load && !thickness))
+      section.forbid(key,
+                     section_of ? "the extent of a section belongs into section = { ... }"
+                     : whole && !thickness
+                         ? "where there is soil, force and moment are those on the whole body: "
+                           "parts of its surface are told apart in cases of water alone"
+                         : "it belongs to quantity = \"run_up\"");
+  }
   if (gauge.quantity == GaugeQuantity::water_level)
     gauge.crossings = section.integer(
         "crossings", {.lower = 1, .upper = 9, .reason = "the number of surfaces written"},

@@ -13,8 +13,12 @@ namespace {
 
 void check(const CaseOptions& options, const StrengthReductionSettings& settings) {
   if (!options.soil) throw InputError("strength reduction: the case has no [[soil]]");
-  if (options.flow)
-    throw InputError("strength reduction: cases with free water are not possible yet");
+  if (options.flow && options.coupling.mode != CouplingMode::unified)
+    throw InputError(
+        "strength reduction: free water ([[water.body]]) goes with coupling.mode = \"unified\" "
+        "only, "
+        "where rest is that of soil and water together. Write it, with pore_water = \"unified\" in "
+        "each [[soil]], or leave the water out and give its weight as a [[load]].");
   const auto& stages = options.soil->stages;
   if (!options.soil->stop_when_static && (stages.empty() || !stages.back().stop_when_static))
     throw InputError(
