@@ -72,7 +72,7 @@ std::optional<StrengthTrial> run_trial(const CaseOptions& options, double factor
   trial.factor = factor;
   try {
     if (run_to_end(world, results, run, guard) == ExitCode::interrupted) return std::nullopt;
-    const auto statics = world.soil()->statics();
+    const auto statics = world.statics();
     const bool rests = statics && world.clock().in_last_stage() &&
                        world.soil()->options().stop_when_static &&
                        statics->at_rest(*world.soil()->options().stop_when_static);

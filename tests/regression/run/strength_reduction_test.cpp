@@ -24,6 +24,18 @@ TEST_F(StrengthReduction, FindsTheFactorOfALayerOnAnInclinedPlane) {
   EXPECT_EQ(status_of(results("out") / "trials/1.1"), "\"done\"");
 }
 
+/// With one water rest is that of soil and water together. In air, with the weight that it has
+/// under water, the same bank stands at 1.4375 and fails at 1.5.
+TEST_F(StrengthReduction, JudgesABankUnderWaterByItsWeightThere) {
+  const Result found =
+      wait_patiently(start({"strength-reduction", case_file("slope_under_water").string(),
+                            "--lower", "1.25", "--upper", "2", "--tolerance", "0.8", "-o", "out"}));
+  ASSERT_EQ(found.code, 0) << found.output;
+  const std::string json = text_of(results("out") / "strength_reduction.json");
+  EXPECT_EQ(number_after(json, "stands at"), 1.25) << found.output;
+  EXPECT_EQ(number_after(json, "fails at"), 2.0) << found.output;
+}
+
 TEST_F(StrengthReduction, SaysWhenTheFactorLiesElsewhere) {
   const std::string file = case_file("slide").string();
   const Result above =
