@@ -69,7 +69,7 @@ void UnifiedCoupling<D>::find_equilibrium(FlowSolver<D>& flow, const PorousMediu
   const EquilibriumStart& start = *soil.options().start_in_equilibrium;
   Push push{FaceVector<D>(*grid_, "push of the water", "N/m3"),
             FaceVector<D>(*grid_, "pull of menisci", "N/m3")};
-  flow.push_on_grains(medium, push.per_share, push.menisci);
+  flow.push_on_grains(medium, grains_.share, push.per_share, push.menisci);
   const auto given = soil.seek_rest();
   Statics statics;
   double elapsed = 0.0, work = 0.0;
@@ -107,7 +107,7 @@ std::optional<Statics> UnifiedCoupling<D>::statics(FlowSolver<D>& flow,
   if (!push_)
     push_.emplace(Push{FaceVector<D>(*grid_, "push of the water", "N/m3"),
                        FaceVector<D>(*grid_, "pull of menisci", "N/m3")});
-  flow.push_on_grains(medium, push_->per_share, push_->menisci);
+  flow.push_on_grains(medium, grains_.share, push_->per_share, push_->menisci);
   const double damping = soil.options().damping, scaled = soil.options().mass_scaling;
   std::array<double, 3> mine{}, all{};  // unbalanced, external, kinetic
   for (int a = 0; a < D; ++a)

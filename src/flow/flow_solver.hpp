@@ -146,8 +146,8 @@ class FlowSolver {
 
   /// What the present pressure does to grains at rest: force per unit of their share of a face
   /// [N/m3], and what menisci pull them with [N/m3]. Between steps. Collective.
-  void push_on_grains(const PorousMedium<D>& medium, FaceVector<D>& per_share,
-                      FaceVector<D>& menisci);
+  void push_on_grains(const PorousMedium<D>& medium, const FaceVector<D>& share,
+                      FaceVector<D>& per_share, FaceVector<D>& menisci);
 
   /// The whole state: a run that goes on from it continues bit for bit.
   template <class Archive>

@@ -1,8 +1,7 @@
 /// The step of water that shares its pressure with grains (NUMERICS C2), and pressures that are
 /// given.
-#include <algorithm>
-
 #include "flow/flow_solver.hpp"
+#include "flow/grains_at_surface.hpp"
 #include "numerics/loops.hpp"
 
 namespace mudlark {
@@ -18,19 +17,13 @@ void FlowSolver<D>::push_given(const PorousMedium<D>& medium) {
 
 /// What else hangs on the grains goes with the menisci.
 template <int D>
-void FlowSolver<D>::push_on_grains(const PorousMedium<D>& medium, FaceVector<D>& per_share,
-                                   FaceVector<D>& menisci) {
+void FlowSolver<D>::push_on_grains(const PorousMedium<D>& medium, const FaceVector<D>& share,
+                                   FaceVector<D>& per_share, FaceVector<D>& menisci) {
   for (int a = 0; a < D; ++a) {
     per_share[a].fill(0.0), menisci[a].fill(0.0);
     mobility_[a].fill(1.0);
-    // At the surface only the grains below it feel the pressure, which falls over `reach`.
-    const double *reach = projection_.reach()[a].data(), *governed = projection_.unknown().data();
-    const std::ptrdiff_t s = grid_->stride(a);
-    double* m = mobility_[a].data();
-    for_each_offset(*grid_, bounding_faces(*grid_, a), [&](std::ptrdiff_t at) {
-      if (governed[at] * governed[at - s] == 0.0) m[at] = std::min(reach[at], 1.0);
-    });
   }
+  find_part_under_water(*grid_, projection_.unknown(), projection_.reach(), share, mobility_);
   projection_.push(mobility_, pressure_, per_share);
   projection_.pull(mobility_, medium.suction, per_share);
   projection_.hang(medium.suction, menisci);
@@ -82,8 +75,10 @@ void FlowSolver<D>::project_with_grains(const PorousMedium<D>& medium, const Cel
   if (ground_sides_) ground_sides_->note_velocity(velocity_);
 }
 
-template void FlowSolver<2>::push_on_grains(const PorousMedium<2>&, FaceVector<2>&, FaceVector<2>&);
-template void FlowSolver<3>::push_on_grains(const PorousMedium<3>&, FaceVector<3>&, FaceVector<3>&);
+template void FlowSolver<2>::push_on_grains(const PorousMedium<2>&, const FaceVector<2>&,
+                                            FaceVector<2>&, FaceVector<2>&);
+template void FlowSolver<3>::push_on_grains(const PorousMedium<3>&, const FaceVector<3>&,
+                                            FaceVector<3>&, FaceVector<3>&);
 template void FlowSolver<2>::push_given(const PorousMedium<2>&);
 template void FlowSolver<3>::push_given(const PorousMedium<3>&);
 template void FlowSolver<2>::project_with_grains(const PorousMedium<2>&, const CellField<2>&,

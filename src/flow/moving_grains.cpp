@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "flow/flow_checks.hpp"
+#include "flow/grains_at_surface.hpp"
 #include "flow/partly_filled.hpp"
 #include "numerics/loops.hpp"
 
@@ -45,6 +46,8 @@ void GrainsInWater<D>::couple(const FaceVector<D>& capacity, const CellField<D>&
                               MovingGrains<D>& grains) {
   const Grid<D>& grid = *grid_;
   const double slow = undirected_speed(norm(grid.gravity()), dt);
+  // Kept where each face puts the mobility of its grains once it has used it.
+  find_part_under_water(grid, unknown, reach, grains.share, grain_mobility_);
   find_shares(capacity, mobility, grains);
   for (int axis = 0; axis < D; ++axis) {
     const std::ptrdiff_t s = grid.stride(axis);
@@ -76,10 +79,7 @@ void GrainsInWater<D>::couple(const FaceVector<D>& capacity, const CellField<D>&
         const FaceSystem face{inertia, open ? loose * filled * theta[at] * dt / m[at] : 0.0,
                               loose * dt * pull * theta[at] * theta[at] * resistance};
         const Pair now = face.solve(inertia * grain_v[at] + dt * force, face.water_mass * v[at]);
-        // At the surface only the grains below it feel the pressure, which falls over `reach`.
-        const bool surface = wet && governed[at] * governed[at - s] == 0.0;
-        const double below = surface ? std::min(reach[axis].data()[at], 1.0) : 1.0;
-        const Pair answer = face.solve(dt * share * below, dt * rest[at]);
+        const Pair answer = face.solve(dt * share * grain_m[at], dt * rest[at]);
         grain_v[at] = now.grains;
         grain_m[at] = answer.grains;
         if (open) v[at] = now.water, m[at] = answer.water;

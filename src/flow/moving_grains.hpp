@@ -42,7 +42,8 @@ class GrainsInWater {
   /// `velocity` is that of the water under all but pressure and grains, `mobility` its answer
   /// alone, dt / (rho + ...) [m2 s/kg]; both become those of the two together, as does
   /// grains.velocity. `water`, free in the room `porosity`, and `unknown` (cells with a pressure)
-  /// need ghosts; `reach` is that of the pressure at a face [cells]; `residual` (or null) hangs on
+  /// need ghosts, as does grains.share; `reach` is that of the pressure at a face [cells]: only
+  /// grains under the surface feel it (flow/grains_at_surface.hpp). `residual` (or null) hangs on
   /// the grains. Closed walls hold both. Owned and bounding faces.
   void couple(const FaceVector<D>& capacity, const CellField<D>& water,
               const CellField<D>& porosity, const CellField<D>& unknown, const FaceVector<D>& reach,
