@@ -72,6 +72,9 @@ void FlowSolver<D>::project_with_grains(const PorousMedium<D>& medium, const Cel
   if (storage_) storage_->count(water_, projection_.unknown(), pressure_);
   projection_.push(mobility_, pressure_, velocity_);
   projection_.push(both.grain_mobility(), pressure_, grains.velocity);
+  ghosts_.exchange(both.rims());
+  ghosts_.exchange(grains.velocity);
+  carry_rims(*grid_, both.rims(), grains.velocity);
   if (ground_sides_) ground_sides_->note_velocity(velocity_);
 }
 

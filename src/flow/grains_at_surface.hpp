@@ -19,14 +19,25 @@ struct GrainsAcrossSurface {
 /// air: 0.29 phi rho g h with both surfaces on one face. But ground ends as sharply as its points
 /// do: `within`, `here` and `beyond` are what it holds between a cell and a half below the face and
 /// its end, and what does not fit under the surface is out of the water. `beyond` counts with
-/// `here`, as no pressure acts on it.
+/// `here`, as no pressure acts on it: more than 1 is the part of `beyond` that is under water.
 double part_under_water(const GrainsAcrossSurface& grains, double reach);
 
-/// That part on faces which the surface passes, 1 on all others. `unknown` (cells with a pressure),
-/// `reach` (of the pressure at a face, in cells) and `share` need ghosts. Bounding faces.
+/// That part on faces which the surface passes, 1 on all others. `unknown` (cells with a pressure)
+/// and `share` need ghosts; `reach` is that of the pressure at a face [cells]. Bounding faces.
 template <int D>
 void find_part_under_water(const Grid<D>& grid, const CellField<D>& unknown,
                            const FaceVector<D>& reach, const FaceVector<D>& share,
                            FaceVector<D>& part);
+
+/// Grains of the next face out of the water that are under it all the same, with the sign of the
+/// direction to them: a part of those.
+template <int D>
+void find_rims(const Grid<D>& grid, const CellField<D>& unknown, const FaceVector<D>& share,
+               const FaceVector<D>& part, FaceVector<D>& rims);
+
+/// Gives grains of rims the velocity of the face of the surface. `rims` and `velocity` need ghosts.
+/// Owned faces.
+template <int D>
+void carry_rims(const Grid<D>& grid, const FaceVector<D>& rims, FaceVector<D>& velocity);
 
 }  // namespace mudlark

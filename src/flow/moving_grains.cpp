@@ -1,6 +1,7 @@
 #include "flow/moving_grains.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "flow/flow_checks.hpp"
 #include "flow/grains_at_surface.hpp"
@@ -26,6 +27,22 @@ struct FaceSystem {
   }
 };
 
+/// Shares of a face with which water has mass and drags at grains [-].
+struct WaterOfFace {
+  double mass, drag;
+};
+
+/// On the face of the surface, `level` cells beyond the last pressure. Where ground ends only water
+/// under the surface drags at grains, of which `part` lies there, no denser than `solid` as in the
+/// ground around; in ground that goes on (part = level) all of the face counts.
+WaterOfFace water_under_surface(double theta, double share, double solid, double part,
+                                double level) {
+  const double ends = std::clamp(2.0 * (part / level - 1.0), 0.0, 1.0);
+  const double grains = std::min(share * part / level, solid);
+  const double water = level * std::max(theta + share - grains, 0.05 * theta);
+  return {theta + ends * (water - theta), theta + ends * (water * grains / share - theta)};
+}
+
 }  // namespace
 
 template <int D>
@@ -35,7 +52,7 @@ GrainsInWater<D>::GrainsInWater(const Grid<D>& grid)
       flux_mobility_(grid, "mobility of the mixture", "m2 s/kg"),
       grain_mobility_(grid, "mobility of the grains", "m2 s/kg"),
       water_share_(grid, "water share", "1"),
-      menisci_(grid, "force of menisci", "N/m3"),
+      scratch_(grid, "force of menisci, then rims", "N/m3 or 1"),
       whole_(grid, "whole", "1", 1.0) {}
 
 template <int D>
@@ -48,6 +65,7 @@ void GrainsInWater<D>::couple(const FaceVector<D>& capacity, const CellField<D>&
   const double slow = undirected_speed(norm(grid.gravity()), dt);
   // Kept where each face puts the mobility of its grains once it has used it.
   find_part_under_water(grid, unknown, reach, grains.share, grain_mobility_);
+  find_rims(grid, unknown, grains.share, grain_mobility_, scratch_);
   find_shares(capacity, mobility, grains);
   for (int axis = 0; axis < D; ++axis) {
     const std::ptrdiff_t s = grid.stride(axis);
@@ -56,6 +74,8 @@ void GrainsInWater<D>::couple(const FaceVector<D>& capacity, const CellField<D>&
     double *v = velocity[axis].data(), *m = mobility[axis].data();
     double* grain_v = grains.velocity[axis].data();
     double *flux_m = flux_mobility_[axis].data(), *grain_m = grain_mobility_[axis].data();
+    const double *rim = scratch_[axis].data(), *before = flux_[axis].data();
+    flux_[axis].copy_values_from(grains.velocity[axis]);
     const double* free_share = residual ? residual->free_share()[axis].data() : nullptr;
     const double* held = residual ? residual->mass()[axis].data() : nullptr;
     const double* held_weight = residual ? residual->weight()[axis].data() : nullptr;
@@ -74,12 +94,31 @@ void GrainsInWater<D>::couple(const FaceVector<D>& capacity, const CellField<D>&
         const double pull = known ? 1.0 : drag_of_part(grains.filling, filled);
         const double resistance = grains.resistance[axis].data()[at];
         const double loose = residual && !known ? free_share[at] : 1.0;
-        double force = grains.force[axis].data()[at];
-        if (residual && open) inertia += held[at], force += held_weight[at];
-        const FaceSystem face{inertia, open ? loose * filled * theta[at] * dt / m[at] : 0.0,
-                              loose * dt * pull * theta[at] * theta[at] * resistance};
-        const Pair now = face.solve(inertia * grain_v[at] + dt * force, face.water_mass * v[at]);
-        const Pair answer = face.solve(dt * share * grain_m[at], dt * rest[at]);
+        double force = grains.force[axis].data()[at], momentum = inertia * grain_v[at];
+        if (rim[at] != 0.0) {  // the rim moves with this face
+          const std::ptrdiff_t other = rim[at] > 0.0 ? at + s : at - s;
+          const double more = std::abs(rim[at]) * grains.inertia[axis].data()[other];
+          force += std::abs(rim[at]) * grains.force[axis].data()[other];
+          momentum += more * before[other];
+          inertia += more;
+        }
+        if (residual && open) {
+          inertia += held[at], force += held_weight[at];
+          momentum += held[at] * grain_v[at];
+        }
+        WaterOfFace here{theta[at], theta[at]};
+        if (wet && governed[at] * governed[at - s] == 0.0 && share > 0.0 && open) {
+          const std::ptrdiff_t in = governed[at] > 0.0 ? s : -s;
+          const double* shares = grains.share[axis].data();
+          const double solid = std::max({share, shares[at + in], shares[at + 2 * in]});
+          const double level = std::min(reach[axis].data()[at], 1.0);
+          here = water_under_surface(theta[at], share, solid, grain_m[at], level);
+        }
+        const FaceSystem face{inertia, open ? loose * filled * here.mass * dt / m[at] : 0.0,
+                              loose * dt * pull * theta[at] * here.drag * resistance};
+        const Pair now = face.solve(momentum + dt * force, face.water_mass * v[at]);
+        const Pair answer =
+            face.solve(dt * share * grain_m[at], dt * (rest[at] + here.mass - theta[at]));
         grain_v[at] = now.grains;
         grain_m[at] = answer.grains;
         if (open) v[at] = now.water, m[at] = answer.water;

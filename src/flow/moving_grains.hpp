@@ -57,7 +57,10 @@ class GrainsInWater {
   FaceVector<D>& flux_mobility() { return flux_mobility_; }
   FaceVector<D>& grain_mobility() { return grain_mobility_; }
   FaceVector<D>& water_share() { return water_share_; }  ///< of a face, in that flux [-]
-  FaceVector<D>& menisci() { return menisci_; }  ///< room for their force on the grains [N/m3]
+  /// Room for the force of menisci on the grains [N/m3], until couple() finds the rims.
+  FaceVector<D>& menisci() { return scratch_; }
+  /// Of the ground at the surface (find_rims()), after couple(), without ghosts.
+  FaceVector<D>& rims() { return scratch_; }
   const FaceVector<D>& whole() const { return whole_; }  ///< 1 everywhere: the flux is whole
 
  private:
@@ -66,7 +69,7 @@ class GrainsInWater {
   const Grid<D>* grid_;
   FaceVector<D> flux_, flux_mobility_, grain_mobility_;
   FaceVector<D> water_share_;  ///< that the water answers to pressure with: theta_f as a rule [-]
-  FaceVector<D> menisci_, whole_;
+  FaceVector<D> scratch_, whole_;
 };
 
 extern template class GrainsInWater<2>;

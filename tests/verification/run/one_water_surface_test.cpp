@@ -64,6 +64,10 @@ TEST(OneWaterSurface, ABedUnderWaterUpToItsTopStaysAtRest) {
     run_until(world, 0.25);
     const double self_weight = 0.5 * (grains - lift) * top * top / modulus;
     EXPECT_LT(std::abs(read(world, GaugeQuantity::settlement, 0.4)), 1e-3 * self_weight);
+    for (const double height : {0.4875, 0.4625}) {  // that the rim does not hang on its neighbours
+      const double stress = -read(world, GaugeQuantity::effective_stress, height, 2);
+      EXPECT_NEAR(stress, weight_above(height, top + over * h), 0.1 * cell) << height;
+    }
     expect_conservation(world);
   }
 }
