@@ -42,7 +42,7 @@ void vof_sweep(benchmark::State& state) {
       flux[axis][face] =
           axis == 0 ? (psi(x, z + h) - psi(x, z)) / h : -(psi(x + h, z) - psi(x, z)) / h;
     });
-  const NearWater<D> everywhere(grid);
+  const CellRuns<D> everywhere(grid);
   InterfaceAdvection<D> advection(grid, everywhere);
   std::int64_t step = 0;
   for (auto _ : state) advection.sweep(water, porosity, flux, 0.2 * h, step++);

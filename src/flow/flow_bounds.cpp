@@ -55,17 +55,20 @@ double FlowSolver<D>::courant_rate() const {
   };
   const std::vector<SmallCell>& small = solids_.walls().small();
   auto pair = small.begin();  // both loops go from place to place upwards
-  for_each_offset(near_, grid.owned(), [&](std::ptrdiff_t at) {
-    InAndOut sum = sums(at);
-    double room = theta[at];
-    // A small cell and its host move as one.
-    while (pair != small.end() && pair->at < at) ++pair;
-    if (pair != small.end() && pair->at == at) {
-      const InAndOut hosts = sums(pair->host);
-      sum.in += hosts.in, sum.out += hosts.out, room += theta[pair->host];
-    }
-    if (room > 0.0) fastest = std::max(fastest, std::max(sum.in, sum.out) / room);
-  });
+  for_each_offset(
+      near_.cells(), grid.owned(),
+      [&](std::ptrdiff_t at) {
+        InAndOut sum = sums(at);
+        double room = theta[at];
+        // A small cell and its host move as one.
+        while (pair != small.end() && pair->at < at) ++pair;
+        if (pair != small.end() && pair->at == at) {
+          const InAndOut hosts = sums(pair->host);
+          sum.in += hosts.in, sum.out += hosts.out, room += theta[pair->host];
+        }
+        if (room > 0.0) fastest = std::max(fastest, std::max(sum.in, sum.out) / room);
+      },
+      w + grid.stride(D - 1), theta, velocity_.data(), capacity_.data());
   return max_over_ranks(grid, fastest);
 }
 
@@ -101,7 +104,7 @@ void FlowSolver<D>::check_step(double dt) const {
 }
 
 template <int D>
-void FlowSolver<D>::check_bounds(const NearWater<D>& where) const {
+void FlowSolver<D>::check_bounds(const CellRuns<D>& where) const {
   const Grid<D>& grid = *grid_;
   const double* w = water_.data();
   const double* theta = porosity_.data();
@@ -136,8 +139,8 @@ template double FlowSolver<2>::stable_step(const PorousMedium<2>&) const;
 template double FlowSolver<3>::stable_step(const PorousMedium<3>&) const;
 template void FlowSolver<2>::check_step(double) const;
 template void FlowSolver<3>::check_step(double) const;
-template void FlowSolver<2>::check_bounds(const NearWater<2>&) const;
-template void FlowSolver<3>::check_bounds(const NearWater<3>&) const;
+template void FlowSolver<2>::check_bounds(const CellRuns<2>&) const;
+template void FlowSolver<3>::check_bounds(const CellRuns<3>&) const;
 template void FlowSolver<2>::check_finite() const;
 template void FlowSolver<3>::check_finite() const;
 

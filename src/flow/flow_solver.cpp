@@ -34,12 +34,12 @@ FlowSolver<D>::FlowSolver(const Grid<D>& grid, const FlowOptions& options)
       ghosts_(grid),
       near_(grid),
       everywhere_(grid),
-      interface_(grid, near_),
-      momentum_(grid, near_),
-      predictor_(grid, near_, options),
+      interface_(grid, near_.cells()),
+      momentum_(grid, near_.cells()),
+      predictor_(grid, near_.beside(), options),
       drained_(grid, options),
       projection_(grid, near_, options),
-      extension_(grid, near_),
+      extension_(grid, near_.cells()),
       waves_(grid, options.waves),
       sides_(grid, options.sides, options.density),
       sources_(grid, options.wave_sources),
@@ -79,7 +79,7 @@ bool FlowSolver<D>::far_changes(const PorousMedium<D>& medium) const {
 
 /// Ghosts and what follows from W, theta and v; without a medium what grains hold stays as it is.
 template <int D>
-void FlowSolver<D>::update_derived(const NearWater<D>& where, const PorousMedium<D>* medium) {
+void FlowSolver<D>::update_derived(const CellRuns<D>& where, const PorousMedium<D>* medium) {
   ghosts_.update(water_, where);
   ghosts_.update(porosity_, where);
   ghosts_.update(pressure_, where);
@@ -91,9 +91,8 @@ void FlowSolver<D>::update_derived(const NearWater<D>& where, const PorousMedium
   const double* w = free_water().data();
   const double* theta = free_room().data();
   double* alpha = saturation_.data();
-  for_each_offset(where, grid_->local(), [&](std::ptrdiff_t at) {
-    alpha[at] = theta[at] > 0.0 ? w[at] / theta[at] : 0.0;
-  });
+  for_each_apart(where, grid_->local(),
+                 [&](std::ptrdiff_t at) { alpha[at] = theta[at] > 0.0 ? w[at] / theta[at] : 0.0; });
 }
 
 /// theta_f = aperture times the mean porosity of the room beside the face, on owned and bounding
@@ -114,7 +113,8 @@ void FlowSolver<D>::find_capacity(const PorousMedium<D>& medium) {
       capacity[at] = aperture[at] * (0.5 * (porosity(at) + porosity(at - s)));
     };
     if (solids_.empty()) {
-      for_each_offset(near_, bounding_faces(*grid_, a), mean);
+      for_each_apart(near_.cells(), bounding_faces(*grid_, a), mean, theta, volume, aperture,
+                     capacity);
       continue;
     }
     IndexBox<D> box = grid_->local();
@@ -263,24 +263,29 @@ void FlowSolver<D>::find_target(const PorousMedium<D>& medium, double dt, double
   const double* stored = storage_ ? storage_->stored().data() : nullptr;
   double* target = target_.data();
   const double beside_bodies = solids_.moving() ? slow_feedback(grid) : HUGE_VAL;
-  for_each_offset(near_, grid.owned(), [&](std::ptrdiff_t at) {
-    const double given = volume[at] * porosity[at] + (stored ? stored[at] : 0.0);
-    // Cells that close faster than that keep some room: without any they would dictate the step.
-    const double slowest = theta[at] < 0.5 * given ? HUGE_VAL : most;
-    // Beside bodies the same, but little by little.
-    const double narrow = given > 0.0 ? std::max(0.0, 1.0 - 2.0 * theta[at] / given) : 0.0;
-    const double rate = porosity[at] < 1.0
-                            ? std::min(drift_feedback / dt, slowest)
-                            : std::min(1.0 / dt, beside_bodies + narrow * drift_feedback / dt);
-    target[at] = dt > 0.0 ? rate * (theta[at] - given) : 0.0;
-  });
+  for_each_apart(
+      near_.beside(), grid.owned(),
+      [&](std::ptrdiff_t at) {
+        const double given = volume[at] * porosity[at] + (stored ? stored[at] : 0.0);
+        // Cells that close faster than that keep some room: without any they would dictate the
+        // step.
+        const double slowest = theta[at] < 0.5 * given ? HUGE_VAL : most;
+        // Beside bodies the same, but little by little.
+        const double narrow = given > 0.0 ? std::max(0.0, 1.0 - 2.0 * theta[at] / given) : 0.0;
+        const double rate = porosity[at] < 1.0
+                                ? std::min(drift_feedback / dt, slowest)
+                                : std::min(1.0 / dt, beside_bodies + narrow * drift_feedback / dt);
+        target[at] = dt > 0.0 ? rate * (theta[at] - given) : 0.0;
+      },
+      theta, porosity, volume, target);
   for (int a = 0; a < D; ++a) {
     const std::ptrdiff_t s = grid.stride(a);
     const double inverse = 1.0 / grid.spacing()[a];
     const double* grains = medium.grain_flux[a].data();
-    for_each_offset(near_, grid.owned(), [&](std::ptrdiff_t at) {
-      target[at] -= (grains[at + s] - grains[at]) * inverse;
-    });
+    for_each_apart(
+        near_.beside(), grid.owned(),
+        [&](std::ptrdiff_t at) { target[at] -= (grains[at + s] - grains[at]) * inverse; }, grains,
+        target);
   }
 }
 
@@ -294,7 +299,7 @@ void FlowSolver<D>::move_momentum(double dt) {
   if (gas_)
     gas_->move_momentum(water_, porosity_, flux_, carried_, dt, momentum_, velocity_);
   else
-    momentum_.advance(Inertia::water, old_water_, water_, porosity_, carried_, velocity_);
+    momentum_.advance(Inertia::water, {&old_water_, &water_, &porosity_, &carried_}, velocity_);
   if (ground_sides_) ground_sides_->carry_momentum(velocity_);
   if (turbulence_)
     turbulence_->move(gas_ ? gas_->mass() : water_, gas_ ? gas_->mass_flux() : carried_);
@@ -356,7 +361,7 @@ void FlowSolver<D>::make_free_of_divergence(const PorousMedium<D>& medium, doubl
 template <int D>
 void FlowSolver<D>::extend_velocity(const PorousMedium<D>& medium) {
   const Stopwatch watch(effort_.extension);
-  ghosts_.update_velocity(velocity_, near_);
+  ghosts_.update_velocity(velocity_, near_.cells());
   if (!gas_)
     extension_.extend(projection_.unknown(), free_water(), free_room(), capacity_, medium.drains,
                       velocity_);

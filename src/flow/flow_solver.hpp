@@ -27,6 +27,7 @@
 #include "flow/water_storage.hpp"
 #include "numerics/interface_advection.hpp"
 #include "numerics/momentum_transport.hpp"
+#include "numerics/near_water.hpp"
 #include "numerics/velocity_extension.hpp"
 
 namespace mudlark {
@@ -173,7 +174,7 @@ class FlowSolver {
   }
 
  private:
-  void update_derived(const NearWater<D>& where, const PorousMedium<D>* medium = nullptr);
+  void update_derived(const CellRuns<D>& where, const PorousMedium<D>* medium = nullptr);
   void fill_with_bodies(const PorousMedium<D>& medium);
   void move_water(const PorousMedium<D>& medium, double dt, const FaceVector<D>* grain_velocity);
   void move_momentum(double dt);
@@ -182,9 +183,9 @@ class FlowSolver {
   void apply_forces(const PorousMedium<D>& medium, double dt, bool with_grains);
   void make_free_of_divergence(const PorousMedium<D>& medium, double dt, MovingGrains<D>* grains);
   void extend_velocity(const PorousMedium<D>& medium);
-  void find_loose(const NearWater<D>& where);
-  void keep_old_water(const NearWater<D>& where);
-  void keep_carried(const NearWater<D>& where);
+  void find_loose(const CellRuns<D>& where);
+  void keep_old_water(const CellRuns<D>& where);
+  void keep_carried(const CellRuns<D>& where);
   void find_capacity(const PorousMedium<D>& medium);
   void follow_solids(const PorousMedium<D>& medium);
   void find_flux();
@@ -195,8 +196,8 @@ class FlowSolver {
   void hold_sides();
   void project_start(const PorousMedium<D>& medium);
   bool far_changes(const PorousMedium<D>& medium) const;
-  const NearWater<D>& changing(const PorousMedium<D>& medium) const {
-    return far_changes(medium) ? everywhere_ : near_;
+  const CellRuns<D>& changing(const PorousMedium<D>& medium) const {
+    return far_changes(medium) ? everywhere_ : near_.cells();
   }
   void find_near(const PorousMedium<D>* medium = nullptr);
   void find_unknowns();
@@ -207,7 +208,7 @@ class FlowSolver {
   void project_with_grains(const PorousMedium<D>& medium, const CellField<D>& give_way, double dt,
                            MovingGrains<D>& grains);
   WallPressure<D> wall_pressure() const;
-  void check_bounds(const NearWater<D>& where) const;
+  void check_bounds(const CellRuns<D>& where) const;
   void check_finite() const;
   double courant_rate() const;
   void check_step(double dt) const;
@@ -215,8 +216,8 @@ class FlowSolver {
   const Grid<D>* grid_;
   FlowOptions options_;
   Ghosts<D> ghosts_;
-  NearWater<D> near_;        ///< where the parts below look for something to do
-  NearWater<D> everywhere_;  ///< what is near if farther cells change as well
+  NearWater<D> near_;       ///< where the parts below look for something to do
+  CellRuns<D> everywhere_;  ///< where they look if farther cells change as well
   InterfaceAdvection<D> interface_;
   MomentumTransport<D> momentum_;
   Predictor<D> predictor_;

@@ -14,38 +14,41 @@ void FlowSolver<D>::find_flux() {
     const double* theta = capacity_[a].data();
     const double* v = velocity_[a].data();
     double* u = flux_[a].data();
-    for_each_offset(near_, bounding_faces(*grid_, a),
-                    [&](std::ptrdiff_t at) { u[at] = theta[at] * v[at]; });
+    for_each_apart(
+        near_.cells(), bounding_faces(*grid_, a),
+        [&](std::ptrdiff_t at) { u[at] = theta[at] * v[at]; }, theta, v, u);
   }
 }
 
 /// Cells whose contents may change their volume. In the others porosity moves with what passes.
 template <int D>
-void FlowSolver<D>::find_loose(const NearWater<D>& where) {
+void FlowSolver<D>::find_loose(const CellRuns<D>& where) {
   const double *w = free_water().data(), *theta = free_room().data();
   double* loose = loose_.data();
   const bool all_keep = gas_ && !gas_->compressible();
-  for_each_offset(where, grid_->owned(), [&](std::ptrdiff_t at) {
+  for_each_apart(where, grid_->owned(), [&](std::ptrdiff_t at) {
     loose[at] = all_keep || InterfaceAdvection<D>::dilates(w[at], theta[at]) ? 0.0 : 1.0;
   });
 }
 
 /// The water before the step, ghosts included.
 template <int D>
-void FlowSolver<D>::keep_old_water(const NearWater<D>& where) {
+void FlowSolver<D>::keep_old_water(const CellRuns<D>& where) {
   const double* w = water_.data();
   double* old = old_water_.data();
-  for_each_offset(where, grid_->local(), [&](std::ptrdiff_t at) { old[at] = w[at]; });
+  for_each_apart(
+      where, grid_->local(), [&](std::ptrdiff_t at) { old[at] = w[at]; }, w, old);
 }
 
 /// What the sweeps carried.
 template <int D>
-void FlowSolver<D>::keep_carried(const NearWater<D>& where) {
+void FlowSolver<D>::keep_carried(const CellRuns<D>& where) {
   for (int a = 0; a < D; ++a) {
     const double* passed = interface_.water_flux()[a].data();
     double* carried = carried_[a].data();
-    for_each_offset(where, bounding_faces(*grid_, a),
-                    [&](std::ptrdiff_t at) { carried[at] = passed[at]; });
+    for_each_apart(
+        where, bounding_faces(*grid_, a), [&](std::ptrdiff_t at) { carried[at] = passed[at]; },
+        passed, carried);
   }
 }
 
@@ -58,7 +61,7 @@ void FlowSolver<D>::move_water(const PorousMedium<D>& medium, double dt,
                                const FaceVector<D>* grain_velocity) {
   const Stopwatch watch(effort_.interface);
   const Grid<D>& grid = *grid_;
-  const NearWater<D>& where = changing(medium);
+  const CellRuns<D>& where = changing(medium);
   find_flux();
   keep_old_water(where);
   if (gas_) gas_->begin(water_, porosity_);
@@ -77,7 +80,7 @@ void FlowSolver<D>::move_water(const PorousMedium<D>& medium, double dt,
   const double* now = water_.data();
   const double* loose = loose_.data();
   double* moved = new_porosity_.data();
-  for_each_offset(where, grid.owned(), [&](std::ptrdiff_t at) {
+  for_each_apart(where, grid.owned(), [&](std::ptrdiff_t at) {
     if (loose[at] > 0.0)
       moved[at] = solids_.moving() ? theta[at] : std::max(volume[at] * given[at], now[at]);
   });
@@ -114,15 +117,15 @@ void FlowSolver<D>::add_outflow() {
 }
 
 template void FlowSolver<2>::find_flux();
-template void FlowSolver<2>::find_loose(const NearWater<2>&);
-template void FlowSolver<2>::keep_old_water(const NearWater<2>&);
-template void FlowSolver<2>::keep_carried(const NearWater<2>&);
+template void FlowSolver<2>::find_loose(const CellRuns<2>&);
+template void FlowSolver<2>::keep_old_water(const CellRuns<2>&);
+template void FlowSolver<2>::keep_carried(const CellRuns<2>&);
 template void FlowSolver<2>::add_outflow();
 template void FlowSolver<2>::move_water(const PorousMedium<2>&, double, const FaceVector<2>*);
 template void FlowSolver<3>::find_flux();
-template void FlowSolver<3>::find_loose(const NearWater<3>&);
-template void FlowSolver<3>::keep_old_water(const NearWater<3>&);
-template void FlowSolver<3>::keep_carried(const NearWater<3>&);
+template void FlowSolver<3>::find_loose(const CellRuns<3>&);
+template void FlowSolver<3>::keep_old_water(const CellRuns<3>&);
+template void FlowSolver<3>::keep_carried(const CellRuns<3>&);
 template void FlowSolver<3>::add_outflow();
 template void FlowSolver<3>::move_water(const PorousMedium<3>&, double, const FaceVector<3>*);
 

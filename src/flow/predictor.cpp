@@ -8,9 +8,9 @@
 namespace mudlark {
 
 template <int D>
-Predictor<D>::Predictor(const Grid<D>& grid, const NearWater<D>& near, const FlowOptions& options)
+Predictor<D>::Predictor(const Grid<D>& grid, const CellRuns<D>& beside, const FlowOptions& options)
     : grid_(&grid),
-      near_(&near),
+      beside_(&beside),
       density_(options.density),
       viscosity_(options.viscosity),
       gas_density_(options.gas ? options.gas->density : 0.0),
@@ -41,7 +41,8 @@ void Predictor<D>::find_viscous_acceleration(int component, const double* porosi
   const double nu = viscosity_ / density_;
   const std::ptrdiff_t sa = grid.stride(component);
   for_each_place(
-      *near_, bounding_faces(grid, component), [&](std::ptrdiff_t at, const Index<D>& face) {
+      *beside_, bounding_faces(grid, component),
+      [&](std::ptrdiff_t at, const Index<D>& face) {
         double sum = 0.0;
         for (int axis = 0; axis < D; ++axis) {
           const std::ptrdiff_t s = grid.stride(axis);
@@ -64,7 +65,8 @@ void Predictor<D>::find_viscous_acceleration(int component, const double* porosi
         }
         const double held = 0.5 * (porosity[at] + porosity[at - sa]);
         out[at] = held > 0.0 ? nu * sum / held : 0.0;
-      });
+      },
+      velocity + grid.stride(D - 1), porosity + grid.stride(D - 1), out);
 }
 
 namespace {
@@ -125,8 +127,8 @@ void Predictor<D>::find_forces(const PorousMedium<D>& medium, const CellField<D>
       viscous_.find(a, mixture ? mixture->viscosity : water_viscosity_, eddy,
                     mixture ? Mean::harmonic : Mean::arithmetic, porosity, velocity,
                     acceleration_[a]);
-      for_each_offset(*near_, bounding_faces(grid, a),
-                      [&](std::ptrdiff_t at) { viscous[at] /= mixture ? rho[at] : density_; });
+      for_each_apart(*beside_, bounding_faces(grid, a),
+                     [&](std::ptrdiff_t at) { viscous[at] /= mixture ? rho[at] : density_; });
     } else {
       find_viscous_acceleration(a, porosity.data(), velocity[a].data(), viscous);
     }
@@ -135,18 +137,21 @@ void Predictor<D>::find_forces(const PorousMedium<D>& medium, const CellField<D>
     const double* linear = medium.linear_drag[a].data();
     const double* quadratic = medium.quadratic_drag[a].data();
     double* r = resistance[a].data();
-    for_each_offset(*near_, bounding_faces(grid, a), [&](std::ptrdiff_t at) {
-      const double open = aperture[at] > 0.0 ? theta[at] / aperture[at] : 1.0;  // n_f
-      const double wet = mixture ? water_share(rho[at]) : 1.0;
-      double loss = linear[at];
-      if (wet < 1.0 && loss > 0.0) loss *= wet + (1.0 - wet) * gas_viscosity_ / viscosity_;
-      if (quadratic[at] > 0.0) {
-        const double inertia = wet < 1.0 ? quadratic[at] * rho[at] / density_ : quadratic[at];
-        loss += inertia *
-                std::sqrt(seepage_squared(grid, a, velocity, medium.grain_velocity, open, at));
-      }
-      r[at] = open * loss;
-    });
+    for_each_apart(
+        *beside_, bounding_faces(grid, a),
+        [&](std::ptrdiff_t at) {
+          const double open = aperture[at] > 0.0 ? theta[at] / aperture[at] : 1.0;  // n_f
+          const double wet = mixture ? water_share(rho[at]) : 1.0;
+          double loss = linear[at];
+          if (wet < 1.0 && loss > 0.0) loss *= wet + (1.0 - wet) * gas_viscosity_ / viscosity_;
+          if (quadratic[at] > 0.0) {
+            const double inertia = wet < 1.0 ? quadratic[at] * rho[at] / density_ : quadratic[at];
+            loss += inertia *
+                    std::sqrt(seepage_squared(grid, a, velocity, medium.grain_velocity, open, at));
+          }
+          r[at] = open * loss;
+        },
+        theta, aperture, linear, quadratic, r);
   }
 }
 
@@ -175,15 +180,18 @@ void Predictor<D>::advance(const PorousMedium<D>& medium, const CellField<D>& po
     double* v = velocity[a].data();
     double* m = mobility[a].data();
     const auto push = [&](const auto& fluid) {
-      for_each_offset(*near_, bounding_faces(grid, a), [&](std::ptrdiff_t at) {
-        const double resistance = m[at], rho = fluid.density(at);
-        const double inertia = added[at] * fluid.share(at);
-        m[at] = dt / (rho + inertia + dt * (resistance + friction[at]));
-        v[at] = (rho * (v[at] + dt * (fluid.weight(at) + viscous[at])) + inertia * v[at] +
-                 dt * resistance * grains[at]) *
-                (m[at] / dt);
-        if (theta[at] == 0.0) v[at] = 0.0;
-      });
+      for_each_apart(
+          *beside_, bounding_faces(grid, a),
+          [&](std::ptrdiff_t at) {
+            const double resistance = m[at], rho = fluid.density(at);
+            const double inertia = added[at] * fluid.share(at);
+            m[at] = dt / (rho + inertia + dt * (resistance + friction[at]));
+            v[at] = (rho * (v[at] + dt * (fluid.weight(at) + viscous[at])) + inertia * v[at] +
+                     dt * resistance * grains[at]) *
+                    (m[at] / dt);
+            if (theta[at] == 0.0) v[at] = 0.0;
+          },
+          viscous, grains, friction, added, theta, v, m);
     };
     if (mixture)
       push(WaterAndGas{mixture->density[a].data(), mixture->acceleration[a].data(), density_});

@@ -5,14 +5,14 @@
 #include "flow/porous_medium.hpp"
 #include "flow/two_fluids.hpp"
 #include "flow/viscous_force.hpp"
-#include "numerics/near_water.hpp"
+#include "numerics/cell_runs.hpp"
 
 namespace mudlark {
 
 template <int D>
 class Predictor {
  public:
-  Predictor(const Grid<D>& grid, const NearWater<D>& near, const FlowOptions& options);
+  Predictor(const Grid<D>& grid, const CellRuns<D>& beside, const FlowOptions& options);
 
   /// velocity <- ((rho + m) v + dt rho (g + b + nu lap v) + dt R v_s) / (rho + m + dt (R + F)) on
   /// all faces but closed walls: b of the body at half the step, m the added mass of fixed grains,
@@ -40,7 +40,7 @@ class Predictor {
                                  double* out) const;
 
   const Grid<D>* grid_;
-  const NearWater<D>* near_;
+  const CellRuns<D>* beside_;
   double density_, viscosity_, gas_density_, gas_viscosity_;
   /// 1/d^2 [1/m2] by local index along each axis, d the width of a cell and the distance between
   /// the centres of the cells beside a face.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/errors.hpp"
@@ -36,7 +37,8 @@ double crossing(const Plane<D>& plane, int axis) {
 template <int D>
 Projection<D>::Projection(const Grid<D>& grid, const NearWater<D>& near, const FlowOptions& options)
     : grid_(&grid),
-      near_(&near),
+      near_(&near.cells()),
+      beside_(&near.beside()),
       density_(options.density),
       ghosts_(grid),
       unknown_(grid, "pressure unknown", "1"),
@@ -98,29 +100,36 @@ void Projection<D>::find_surface(const CellField<D>& water, const CellField<D>& 
   const double* w = water.data();
   const double* theta = porosity.data();
   double* unknown = unknown_.data();
-  for_each_offset(*near_, grid.local(), [&](std::ptrdiff_t at) {
-    unknown[at] = InterfaceAdvection<D>::dilates(w[at], theta[at]) ? 1.0 : 0.0;
-  });
+  for_each_apart(
+      *near_, grid.local(),
+      [&](std::ptrdiff_t at) {
+        unknown[at] = InterfaceAdvection<D>::dilates(w[at], theta[at]) ? 1.0 : 0.0;
+      },
+      w, theta, unknown);
   for (int axis = 0; axis < D; ++axis) {
     const std::ptrdiff_t s = grid.stride(axis);
     double* distance_here = distance_[axis].data();
     const double* open = capacity[axis].data();
-    for_each_offset(*near_, bounding_faces(grid, axis), [&](std::ptrdiff_t at) {
-      if (open[at] == 0.0) {
-        distance_here[at] = 0.0;
-        return;
-      }
-      const bool above = unknown[at] > 0.0, below = unknown[at - s] > 0.0;
-      double& here = distance_here[at];
-      if (above && below)
-        here = in_mean_cells(at, axis);
-      else if (below)
-        here = in_mean_cells(distance(alpha.data(), at - s, axis, 1, interface), at - s, axis, 1);
-      else if (above)
-        here = in_mean_cells(distance(alpha.data(), at, axis, -1, interface), at, axis, -1);
-      else
-        here = 0.0;
-    });
+    for_each_apart(
+        *near_, bounding_faces(grid, axis),
+        [&](std::ptrdiff_t at) {
+          if (open[at] == 0.0) {
+            distance_here[at] = 0.0;
+            return;
+          }
+          const bool above = unknown[at] > 0.0, below = unknown[at - s] > 0.0;
+          double& here = distance_here[at];
+          if (above && below)
+            here = in_mean_cells(at, axis);
+          else if (below)
+            here =
+                in_mean_cells(distance(alpha.data(), at - s, axis, 1, interface), at - s, axis, 1);
+          else if (above)
+            here = in_mean_cells(distance(alpha.data(), at, axis, -1, interface), at, axis, -1);
+          else
+            here = 0.0;
+        },
+        open, unknown, distance_here);
   }
   find_wall_distances(passes);
 }
@@ -181,24 +190,41 @@ bool Projection<D>::assemble_faces(const FaceVector<D>& capacity, const FaceVect
   double* diagonal = system_.diagonal.data();
   std::int64_t given = 0;
   for (int axis = 0; axis < D; ++axis) {
-    const std::ptrdiff_t s = grid.stride(axis);
     const double inverse = 1.0 / grid.spacing()[axis];
     const double* theta = capacity[axis].data();
     const double* m = mobility[axis].data();
     const double* reach = distance_[axis].data();
     double* coupling = system_.coupling[axis].data();
-    for_each_offset(*near_, bounding_faces(grid, axis), [&](std::ptrdiff_t at) {
-      const double joined = theta[at] * m[at] * inverse * inverse / reach[at];
-      coupling[at] = reach[at] > 0.0 ? joined : 0.0;
-    });
-    for_each_offset(*near_, grid.owned(), [&](std::ptrdiff_t at) {
-      diagonal[at] += unknown[at] > 0.0 ? coupling[at] + coupling[at + s] : 0.0;
-    });
-    for_each_offset(*near_, bounding_faces(grid, axis), [&](std::ptrdiff_t at) {
-      const bool both = unknown[at] > 0.0 && unknown[at - s] > 0.0;
-      given += reach[at] > 0.0 && !both ? 1 : 0;
-      coupling[at] = both ? coupling[at] : 0.0;
-    });
+    for_each_apart(
+        *beside_, bounding_faces(grid, axis),
+        [&](std::ptrdiff_t at) {
+          const double joined = theta[at] * m[at] * inverse * inverse / reach[at];
+          coupling[at] = reach[at] > 0.0 ? joined : 0.0;
+        },
+        theta, m, reach, coupling);
+  }
+  const auto couplings = system_.coupling.data();
+  const auto& strides = grid.strides();
+  for_each_apart(
+      *beside_, grid.owned(),
+      [&](std::ptrdiff_t at) {
+        double sum = diagonal[at];
+        for (std::size_t a = 0; a < D; ++a) sum += couplings[a][at] + couplings[a][at + strides[a]];
+        diagonal[at] = unknown[at] > 0.0 ? sum : diagonal[at];
+      },
+      couplings, diagonal, unknown);
+  for (int axis = 0; axis < D; ++axis) {
+    const std::ptrdiff_t s = grid.stride(axis);
+    const double* reach = distance_[axis].data();
+    double* coupling = system_.coupling[axis].data();
+    for_each_apart(
+        *beside_, bounding_faces(grid, axis),
+        [&](std::ptrdiff_t at) {
+          const bool both = unknown[at] > 0.0 && unknown[at - s] > 0.0;
+          given += reach[at] > 0.0 && !both ? 1 : 0;
+          coupling[at] = both ? coupling[at] : 0.0;
+        },
+        unknown, reach, coupling);
   }
   return given > 0;
 }
@@ -215,13 +241,13 @@ SolveReport Projection<D>::project(const FaceVector<D>& capacity, const FaceVect
   const Grid<D>& grid = *grid_;
   const double* unknown = unknown_.data();
   double* p = pressure.data();
-  for_each_offset(*near_, grid.local(), [&](std::ptrdiff_t at) {
+  for_each_apart(*beside_, grid.local(), [&](std::ptrdiff_t at) {
     if (unknown[at] == 0.0) p[at] = 0.0;  // atmosphere
   });
-  ghosts_.update(pressure, *near_);
+  ghosts_.update(pressure, *beside_);
   push(mobility, pressure, velocity);
   const auto clear = [&](CellField<D>& field) {
-    for_each_offset(*near_, grid.local(), [&](std::ptrdiff_t at) { field.data()[at] = 0.0; });
+    for_each_apart(*beside_, grid.local(), [&](std::ptrdiff_t at) { field.data()[at] = 0.0; });
   };
   clear(risen_);
   assemble(capacity, mobility, give_way);
@@ -238,7 +264,7 @@ SolveReport Projection<D>::project(const FaceVector<D>& capacity, const FaceVect
     report.iterations += pass_report.iterations;
     push(mobility, rise_, velocity);
     const double* rise = rise_.data();
-    for_each_offset(*near_, grid.local(), [&](std::ptrdiff_t at) {
+    for_each_apart(*beside_, grid.local(), [&](std::ptrdiff_t at) {
       p[at] += rise[at];
       risen_.data()[at] += rise[at];
     });
@@ -265,13 +291,13 @@ void Projection<D>::assemble(const FaceVector<D>& capacity, const FaceVector<D>&
   const double* unknown = unknown_.data();
   bool storage = false;
   double* diagonal = system_.diagonal.data();
-  for_each_offset(*near_, grid.owned(), [&](std::ptrdiff_t at) {
+  for_each_apart(*beside_, grid.owned(), [&](std::ptrdiff_t at) {
     diagonal[at] = unknown[at] > 0.0 ? give_way.data()[at] : 0.0;
     storage = storage || diagonal[at] > 0.0;
   });
   const bool given = assemble_faces(capacity, mobility);
   const auto in_system = [&](std::ptrdiff_t at) { return diagonal[at] > 0.0; };
-  find_spans(*near_, grid.owned(), in_system, system_.unknowns);
+  find_spans(*beside_, grid.owned(), in_system, system_.unknowns);
   system_.constant_free = max_over_ranks(grid, given || storage ? 1.0 : 0.0) == 0.0;
 }
 
@@ -284,20 +310,21 @@ double Projection<D>::find_divergence(const FaceVector<D>& capacity, const CellF
   const double* unknown = unknown_.data();
   double* right = system_.right_side.data();
   const double *wanted = target.data(), *given = give_way.data(), *risen = risen_.data();
-  for_each_offset(*near_, grid.owned(), [&](std::ptrdiff_t at) {
-    const double left = wanted[at] - given[at] * risen[at];
-    right[at] = unknown[at] > 0.0 ? left : 0.0;
-  });
-  for (int axis = 0; axis < D; ++axis) {
-    const std::ptrdiff_t s = grid.stride(axis);
-    const double inverse = 1.0 / grid.spacing()[axis];
-    const double* theta = capacity[axis].data();
-    const double* v = velocity[axis].data();
-    for_each_offset(*near_, grid.owned(), [&](std::ptrdiff_t at) {
-      const double opening = (theta[at + s] * v[at + s] - theta[at] * v[at]) * inverse;
-      right[at] -= unknown[at] > 0.0 ? opening : 0.0;
-    });
-  }
+  const auto theta = capacity.data(), v = velocity.data();
+  const auto& strides = grid.strides();
+  std::array<double, D> inverse;
+  for (int a = 0; a < D; ++a) inverse[static_cast<std::size_t>(a)] = 1.0 / grid.spacing()[a];
+  for_each_apart(
+      *beside_, grid.owned(),
+      [&](std::ptrdiff_t at) {
+        double left = wanted[at] - given[at] * risen[at];
+        for (std::size_t a = 0; a < D; ++a) {
+          const std::ptrdiff_t next = at + strides[a];
+          left -= (theta[a][next] * v[a][next] - theta[a][at] * v[a][at]) * inverse[a];
+        }
+        right[at] = unknown[at] > 0.0 ? left : 0.0;
+      },
+      theta, v, wanted, given, risen, unknown, right);
   return solver_.largest_right_side(system_);
 }
 
@@ -353,12 +380,15 @@ void Projection<D>::push(const FaceVector<D>& mobility, const CellField<D>& pres
     const double* m = mobility[axis].data();
     const double* reach = distance_[axis].data();
     double* v = velocity[axis].data();
-    for_each_offset(*near_, bounding_faces(grid, axis), [&](std::ptrdiff_t at) {
-      const double above = unknown[at] > 0.0 ? p[at] : 0.0,
-                   below = unknown[at - s] > 0.0 ? p[at - s] : 0.0;
-      const double change = m[at] * (above - below) * inverse / reach[at];
-      v[at] -= reach[at] > 0.0 ? change : 0.0;
-    });
+    for_each_apart(
+        *beside_, bounding_faces(grid, axis),
+        [&](std::ptrdiff_t at) {
+          const double above = unknown[at] > 0.0 ? p[at] : 0.0,
+                       below = unknown[at - s] > 0.0 ? p[at - s] : 0.0;
+          const double change = m[at] * (above - below) * inverse / reach[at];
+          v[at] -= reach[at] > 0.0 ? change : 0.0;
+        },
+        m, reach, p, unknown, v);
   }
 }
 
@@ -380,13 +410,16 @@ void Projection<D>::for_each_meniscus(int axis, IndexBox<D> faces, const CellFie
       else
         faces.upper[axis] = grid.cells()[axis];
     }
-  for_each_offset(*near_, faces, [&](std::ptrdiff_t at) {
-    const bool above = unknown[at] > 0.0, below = unknown[at - s] > 0.0;
-    if (reach[at] == 0.0 || above == below) return;
-    const std::ptrdiff_t wet = above ? at : at - s, dry = above ? at - s : at;
-    const double here = pull[wet] + std::min(reach[at], 1.0) * (pull[dry] - pull[wet]);
-    if (here > 0.0) body(at, here, above ? -1.0 : 1.0);
-  });
+  for_each_offset(
+      *beside_, faces,
+      [&](std::ptrdiff_t at) {
+        const bool above = unknown[at] > 0.0, below = unknown[at - s] > 0.0;
+        if (reach[at] == 0.0 || above == below) return;
+        const std::ptrdiff_t wet = above ? at : at - s, dry = above ? at - s : at;
+        const double here = pull[wet] + std::min(reach[at], 1.0) * (pull[dry] - pull[wet]);
+        if (here > 0.0) body(at, here, above ? -1.0 : 1.0);
+      },
+      unknown, reach);
 }
 
 template <int D>

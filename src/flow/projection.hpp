@@ -3,6 +3,7 @@
 #include "flow/options.hpp"
 #include "flow/porous_medium.hpp"
 #include "numerics/interface_advection.hpp"
+#include "numerics/near_water.hpp"
 #include "numerics/pressure_solver.hpp"
 
 namespace mudlark {
@@ -66,7 +67,7 @@ class Projection {
   void fix_constant(CellField<D>& pressure);
 
   const Grid<D>* grid_;
-  const NearWater<D>* near_;
+  const CellRuns<D>*near_, *beside_;
   double density_;
   Ghosts<D> ghosts_;
   CellField<D> unknown_;

@@ -121,7 +121,7 @@ void ResidualWater<D>::join(CellField<D>& water) const {
 }
 
 template <int D>
-void ResidualWater<D>::follow_porosity(const NearWater<D>& where,
+void ResidualWater<D>::follow_porosity(const CellRuns<D>& where,
                                        const InterfaceAdvection<D>& interface,
                                        const CellField<D>& moved, CellField<D>& water,
                                        CellField<D>& porosity) {

@@ -38,7 +38,7 @@ class ResidualWater {
   /// The water after the sweeps of the free part.
   void join(CellField<D>& water) const;
   /// Fourth sweep: the free room becomes what R leaves of `moved`, which becomes the porosity.
-  void follow_porosity(const NearWater<D>& where, const InterfaceAdvection<D>& interface,
+  void follow_porosity(const CellRuns<D>& where, const InterfaceAdvection<D>& interface,
                        const CellField<D>& moved, CellField<D>& water, CellField<D>& porosity);
   CellField<D>& free() { return free_; }
   /// R that passed each face, as a share of a cell's volume, is added to what else did.

@@ -63,7 +63,7 @@ void TwoFluids<D>::move_momentum(const CellField<D>& water, const CellField<D>& 
   }
   ghosts_.exchange(mass_flux_);
   find_mass(water, porosity, mass_);
-  momentum.advance(Inertia::water_and_gas, old_mass_, mass_, porosity, mass_flux_, velocity);
+  momentum.advance(Inertia::water_and_gas, {&old_mass_, &mass_, &porosity, &mass_flux_}, velocity);
 }
 
 /// Where the surface lies on the axis through the cell's centre, from it towards the gas [m]: the

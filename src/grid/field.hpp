@@ -78,6 +78,12 @@ class FaceVector {
   }
   FaceField<D>& operator[](int axis) { return axes_[static_cast<std::size_t>(axis)]; }
   const FaceField<D>& operator[](int axis) const { return axes_[static_cast<std::size_t>(axis)]; }
+  /// Values of all axes, for loops over all of them at once.
+  std::array<const double*, D> data() const {
+    std::array<const double*, D> data;
+    for (int a = 0; a < D; ++a) data[static_cast<std::size_t>(a)] = (*this)[a].data();
+    return data;
+  }
   const std::string& name() const { return axes_[0].name(); }
   const std::string& unit() const { return axes_[0].unit(); }
   void fill(double value) {

@@ -64,6 +64,7 @@ class Grid {
   bool touches(int axis, int side) const;
 
   std::ptrdiff_t stride(int axis) const { return strides_[static_cast<std::size_t>(axis)]; }
+  const std::array<std::ptrdiff_t, D>& strides() const { return strides_; }
   std::size_t local_size() const { return local_size_; }
   /// Position of an index in the local arrays.
   std::ptrdiff_t offset(const Index<D>& index) const {
@@ -76,6 +77,10 @@ class Grid {
   Vec<D> face_centre(int axis, const Index<D>& face) const;  ///< [m]
   /// Index along an axis of a place in the local arrays.
   int index_along(int axis, std::ptrdiff_t at) const;
+  /// Size along an axis of the cell at a place in the local arrays [m].
+  double width_at(int axis, std::ptrdiff_t at) const {
+    return stretched(axis) ? width(axis, index_along(axis, at)) : spacing_[axis];
+  }
   /// Cell that holds a position; outside the domain the index lies outside global().
   Index<D> cell_at(const Vec<D>& position) const;
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "numerics/cell_runs.hpp"
 #include "numerics/loops.hpp"
-#include "numerics/near_water.hpp"
 
 namespace mudlark {
 namespace {
@@ -20,7 +20,7 @@ void for_each_behind(const Grid<D>& grid, const Grid<D>&, int axis, int behind, 
 /// The same near the water. Across the first axis those are the rows with near cells so close to
 /// the wall that they have a mirror cell.
 template <int D, class Body>
-void for_each_behind(const Grid<D>& grid, const NearWater<D>& near, int axis, int behind,
+void for_each_behind(const Grid<D>& grid, const CellRuns<D>& near, int axis, int behind,
                      Body&& body) {
   IndexBox<D> box = grid.local();
   if (axis > 0) {
@@ -124,7 +124,7 @@ void Ghosts<D>::update(Field<std::uint8_t, AtCell, D>& marks) {
 }
 
 template <int D>
-void Ghosts<D>::update(CellField<D>& field, const NearWater<D>& near) {
+void Ghosts<D>::update(CellField<D>& field, const CellRuns<D>& near) {
   halo_.exchange(field);
   mirror_cells(near, field.data());
 }
@@ -136,7 +136,7 @@ void Ghosts<D>::update_velocity(FaceVector<D>& velocity) {
 }
 
 template <int D>
-void Ghosts<D>::update_velocity(FaceVector<D>& velocity, const NearWater<D>& near) {
+void Ghosts<D>::update_velocity(FaceVector<D>& velocity, const CellRuns<D>& near) {
   halo_.exchange(velocity);
   fill_behind_walls(near, velocity);
 }

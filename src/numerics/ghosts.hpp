@@ -8,7 +8,7 @@
 namespace mudlark {
 
 template <int D>
-class NearWater;
+class CellRuns;
 
 /// Behind a wall: cell values are mirrored (no gradient, contact angle 90 degrees); the normal
 /// velocity is odd at closed walls and continues unchanged at open ones; the tangential velocity is
@@ -22,8 +22,8 @@ class Ghosts {
   void update(Field<std::uint8_t, AtCell, D>& marks);
   void update_velocity(FaceVector<D>& velocity);
   /// Behind walls near the water only: farther ghosts keep what they have.
-  void update(CellField<D>& field, const NearWater<D>& near);
-  void update_velocity(FaceVector<D>& velocity, const NearWater<D>& near);
+  void update(CellField<D>& field, const CellRuns<D>& near);
+  void update_velocity(FaceVector<D>& velocity, const CellRuns<D>& near);
   /// Exchange between ranks only (fluxes, flags at faces).
   void exchange(FaceVector<D>& field) { halo_.exchange(field); }
   void exchange(CellField<D>& field) { halo_.exchange(field); }

@@ -16,7 +16,7 @@ constexpr double by_plane = 0.0, mixture = 1.0, from_host = 2.0;
 }  // namespace
 
 template <int D>
-InterfaceAdvection<D>::InterfaceAdvection(const Grid<D>& grid, const NearWater<D>& near)
+InterfaceAdvection<D>::InterfaceAdvection(const Grid<D>& grid, const CellRuns<D>& near)
     : grid_(&grid),
       near_(&near),
       ghosts_(grid),
@@ -61,8 +61,9 @@ void InterfaceAdvection<D>::sweep(CellField<D>& water, const CellField<D>& poros
   const double* w = water.data();
   const double* theta = porosity.data();
   double* c = dilates_.data();
-  for_each_offset(*near_, grid_->owned().grown(1),
-                  [&](std::ptrdiff_t at) { c[at] = dilates(w[at], theta[at]) ? 1.0 : 0.0; });
+  for_each_apart(
+      *near_, grid_->owned().grown(1),
+      [&](std::ptrdiff_t at) { c[at] = dilates(w[at], theta[at]) ? 1.0 : 0.0; }, w, theta, c);
   if (spray == Spray::mixed) find_spray(water, porosity);
   if (walls)
     for (const SmallCell& small : walls->small())
@@ -79,9 +80,8 @@ void InterfaceAdvection<D>::sweep_axis(CellField<D>& water, const CellField<D>& 
   const double* w = water.data();
   const double* theta = porosity.data();
   double* alpha = alpha_.data();
-  for_each_offset(*near_, grid.owned(), [&](std::ptrdiff_t at) {
-    alpha[at] = theta[at] > 0.0 ? w[at] / theta[at] : 0.0;
-  });
+  for_each_apart(*near_, grid.owned(),
+                 [&](std::ptrdiff_t at) { alpha[at] = theta[at] > 0.0 ? w[at] / theta[at] : 0.0; });
   ghosts_.update(alpha_, *near_);
   if (walls) walls->extend_saturation(porosity, alpha_);
   find_planes(axis);
@@ -90,10 +90,14 @@ void InterfaceAdvection<D>::sweep_axis(CellField<D>& water, const CellField<D>& 
   const double courant = dt / grid.spacing()[axis];
   const double* u = flux.data();
   double* through = water_flux_[axis].data();
-  for_each_offset(*near_, bounding_faces(grid, axis), [&](std::ptrdiff_t at) {
-    const std::ptrdiff_t donor = u[at] > 0.0 ? at - s : at;
-    through[at] = u[at] == 0.0 ? 0.0 : water_through(u[at] * courant, donor, axis, theta[donor]);
-  });
+  for_each_offset(
+      *near_, bounding_faces(grid, axis),
+      [&](std::ptrdiff_t at) {
+        const std::ptrdiff_t donor = u[at] > 0.0 ? at - s : at;
+        through[at] =
+            u[at] == 0.0 ? 0.0 : water_through(u[at] * courant, donor, axis, theta[donor]);
+      },
+      u, alpha, theta, mixed_.data(), through);
   for (int side = 0; side < 2; ++side) {  // only air comes in through a wall, or what is let in
     if (!grid.touches(axis, side)) continue;
     IndexBox<D> wall = grid.owned();
@@ -106,9 +110,12 @@ void InterfaceAdvection<D>::sweep_axis(CellField<D>& water, const CellField<D>& 
   }
   double* out = water.data();
   const double* c = dilates_.data();
-  for_each_offset(*near_, grid.owned(), [&](std::ptrdiff_t at) {
-    out[at] += through[at] - through[at + s] + c[at] * courant * (u[at + s] - u[at]);
-  });
+  for_each_apart(
+      *near_, grid.owned(),
+      [&](std::ptrdiff_t at) {
+        out[at] += through[at] - through[at + s] + c[at] * courant * (u[at + s] - u[at]);
+      },
+      through, c, u, out);
 }
 
 template <int D>
@@ -116,15 +123,18 @@ void InterfaceAdvection<D>::find_spray(const CellField<D>& water, const CellFiel
   const double* w = water.data();
   const double* theta = porosity.data();
   double* mixed = mixed_.data();
-  for_each_offset(*near_, grid_->owned().grown(1), [&](std::ptrdiff_t at) {
-    bool alone = true;
-    for (int a = 0; a < D; ++a) {
-      if (grid_->cells()[a] == 1) continue;  // there it would meet its own images only
-      for (const std::ptrdiff_t other : {at - grid_->stride(a), at + grid_->stride(a)})
-        alone = alone && !dilates(w[other], theta[other]);
-    }
-    mixed[at] = alone ? mixture : by_plane;
-  });
+  for_each_offset(
+      *near_, grid_->owned().grown(1),
+      [&](std::ptrdiff_t at) {
+        bool alone = true;
+        for (int a = 0; a < D; ++a) {
+          if (grid_->cells()[a] == 1) continue;  // there it would meet its own images only
+          for (const std::ptrdiff_t other : {at - grid_->stride(a), at + grid_->stride(a)})
+            alone = alone && !dilates(w[other], theta[other]);
+        }
+        mixed[at] = alone ? mixture : by_plane;
+      },
+      w + grid_->stride(D - 1), theta + grid_->stride(D - 1), mixed);
 }
 
 /// Planes of the cells that may give water through faces of this axis: one layer more than the
@@ -135,10 +145,13 @@ void InterfaceAdvection<D>::find_planes(int axis) {
   box.lower[axis] -= 1;
   box.upper[axis] += 1;
   const double* alpha = alpha_.data();
-  for_each_offset(*near_, box, [&](std::ptrdiff_t at) {
-    if (alpha[at] > sharp && alpha[at] < 1.0 - sharp)
-      planes_[static_cast<std::size_t>(at)] = plane(alpha, at);
-  });
+  for_each_offset(
+      *near_, box,
+      [&](std::ptrdiff_t at) {
+        if (alpha[at] > sharp && alpha[at] < 1.0 - sharp)
+          planes_[static_cast<std::size_t>(at)] = plane(alpha, at);
+      },
+      alpha);
 }
 
 /// Water carried through a face when the mixture moves by `shift` (cells, signed) into or out of
@@ -162,39 +175,43 @@ double InterfaceAdvection<D>::water_through(double shift, std::ptrdiff_t donor, 
 }
 
 template <int D>
-void InterfaceAdvection<D>::follow_porosity(const NearWater<D>& where, CellField<D>& water,
+void InterfaceAdvection<D>::follow_porosity(const CellRuns<D>& where, CellField<D>& water,
                                             CellField<D>& porosity,
                                             const CellField<D>& new_porosity) const {
   double* w = water.data();
   double* theta = porosity.data();
   const double* moved = new_porosity.data();
   const double* c = dilates_.data();
-  for_each_offset(where, grid_->owned(), [&](std::ptrdiff_t at) {
-    w[at] += c[at] * (moved[at] - theta[at]);
-    theta[at] = moved[at];
-  });
+  for_each_apart(
+      where, grid_->owned(),
+      [&](std::ptrdiff_t at) {
+        w[at] += c[at] * (moved[at] - theta[at]);
+        theta[at] = moved[at];
+      },
+      w, theta, moved, c);
 }
 
 template <int D>
-void move_porosity(const Grid<D>& grid, const NearWater<D>& where, const CellField<D>& porosity,
+void move_porosity(const Grid<D>& grid, const CellRuns<D>& where, const CellField<D>& porosity,
                    const FaceVector<D>& flux, double dt, CellField<D>& moved) {
   const double* theta = porosity.data();
   double* out = moved.data();
-  for_each_offset(where, grid.owned(), [&](std::ptrdiff_t at) { out[at] = theta[at]; });
+  for_each_apart(
+      where, grid.owned(), [&](std::ptrdiff_t at) { out[at] = theta[at]; }, theta, out);
   for (int axis = 0; axis < D; ++axis) {
     const double* u = flux[axis].data();
     const std::ptrdiff_t s = grid.stride(axis);
     const double courant = dt / grid.spacing()[axis];
-    for_each_offset(where, grid.owned(),
-                    [&](std::ptrdiff_t at) { out[at] -= courant * (u[at + s] - u[at]); });
+    for_each_apart(where, grid.owned(),
+                   [&](std::ptrdiff_t at) { out[at] -= courant * (u[at + s] - u[at]); });
   }
 }
 
 template class InterfaceAdvection<2>;
 template class InterfaceAdvection<3>;
-template void move_porosity(const Grid<2>&, const NearWater<2>&, const CellField<2>&,
+template void move_porosity(const Grid<2>&, const CellRuns<2>&, const CellField<2>&,
                             const FaceVector<2>&, double, CellField<2>&);
-template void move_porosity(const Grid<3>&, const NearWater<3>&, const CellField<3>&,
+template void move_porosity(const Grid<3>&, const CellRuns<3>&, const CellField<3>&,
                             const FaceVector<3>&, double, CellField<3>&);
 
 }  // namespace mudlark

@@ -8,7 +8,8 @@
 /// (docs/methods/free-surface-flow.md).
 #include <vector>
 
-#include "numerics/near_water.hpp"
+#include "numerics/cell_runs.hpp"
+#include "numerics/ghosts.hpp"
 #include "numerics/plic.hpp"
 #include "numerics/wall_band.hpp"
 
@@ -24,7 +25,7 @@ enum class Spray { sharp, mixed };
 template <int D>
 class InterfaceAdvection {
  public:
-  InterfaceAdvection(const Grid<D>& grid, const NearWater<D>& near);
+  InterfaceAdvection(const Grid<D>& grid, const CellRuns<D>& near);
 
   /// Cells that count as full of water for the dilation term: W >= theta/2 > 0. The pressure solve
   /// must make the flux free of divergence (up to the porosity's change) in exactly these cells.
@@ -42,7 +43,7 @@ class InterfaceAdvection {
              const WallBand<D>* walls = nullptr, const FaceVector<D>* inflow = nullptr);
 
   /// Fourth sweep: W += c (theta_new - theta); then theta = theta_new. Owned cells of `where`.
-  void follow_porosity(const NearWater<D>& where, CellField<D>& water, CellField<D>& porosity,
+  void follow_porosity(const CellRuns<D>& where, CellField<D>& water, CellField<D>& porosity,
                        const CellField<D>& new_porosity) const;
 
   /// Water that passed each face during the sweeps, as a share of a cell's volume; on owned and
@@ -60,7 +61,7 @@ class InterfaceAdvection {
   double water_through(double shift, std::ptrdiff_t donor, int axis, double porosity) const;
 
   const Grid<D>* grid_;
-  const NearWater<D>* near_;
+  const CellRuns<D>* near_;
   Ghosts<D> ghosts_;
   CellField<D> alpha_;
   CellField<D> dilates_;
@@ -74,7 +75,7 @@ class InterfaceAdvection {
 /// theta - dt div U on owned cells of `where`: the porosity after the flux U has carried the
 /// mixture.
 template <int D>
-void move_porosity(const Grid<D>& grid, const NearWater<D>& where, const CellField<D>& porosity,
+void move_porosity(const Grid<D>& grid, const CellRuns<D>& where, const CellField<D>& porosity,
                    const FaceVector<D>& flux, double dt, CellField<D>& moved);
 
 extern template class InterfaceAdvection<2>;

@@ -20,6 +20,15 @@ struct Exchange {
   double gained = 0.0;   ///< of it, what came in [m/s]
   double came_in = 0.0;  ///< mass that came in [-]
 
+  /// Mass that came in through one side, below zero what left, with a velocity relative to the
+  /// face's own [m/s].
+  void add(double mass, double velocity) {
+    const double momentum = mass * velocity;
+    change -= momentum;
+    gained += mass > 0.0 ? momentum : 0.0;
+    came_in += std::max(mass, 0.0);
+  }
+
   /// `solid` = 1: the quotient of momentum and mass. 0: the mixture of what the face held
   /// (`before`) and what came in, as if the mass that left had been mixed too: the same quotient
   /// where nothing left, else one that stays within its neighbours' range. The two blend: a switch,
@@ -27,7 +36,8 @@ struct Exchange {
   /// water (1e-24 in place of 0) into another velocity.
   double new_velocity(double velocity, double before, double left, double solid) const {
     const double mixture = velocity + gained / std::max(before + came_in, dust);
-    return solid > 0.0 ? mixture + solid * (velocity - change / left - mixture) : mixture;
+    const double quotient = velocity - change / left;
+    return solid > 0.0 ? mixture + solid * (quotient - mixture) : mixture;
   }
 };
 
@@ -56,8 +66,39 @@ struct WaterAndGasRule {
 
 double limited_slope(double behind, double ahead) {
   const double product = behind * ahead;
-  return product > 0.0 ? 2.0 * product / (behind + ahead) : 0.0;
+  const double mean = 2.0 * product / (behind + ahead);
+  return product > 0.0 ? mean : 0.0;
 }
+
+/// A quantity of the cells beside a face along the axis with this stride.
+double at_face(const double* cells, std::ptrdiff_t at, std::ptrdiff_t stride) {
+  return 0.5 * (cells[at - stride] + cells[at]);
+}
+
+/// What one component of the velocity is carried with; `stride` is that of its axis.
+struct Component {
+  const double *before, *after, *porosity, *velocity;
+  std::ptrdiff_t stride;
+
+  /// Velocity that passes the side between the faces at - s and at: that of the face that gives,
+  /// with the limited slope there. Choices in place of branches: a vector of faces at a time.
+  template <class Rule>
+  double carried(double through, std::ptrdiff_t at, std::ptrdiff_t s) const {
+    const auto of_donor = [through](double lower, double upper) {
+      return through > 0.0 ? lower : upper;
+    };
+    const double upper = velocity[at], lower = velocity[at - s], across = upper - lower;
+    const double behind = of_donor(lower - velocity[at - 2 * s], upper - velocity[at + s]);
+    const double mass = of_donor(at_face(before, at - s, stride), at_face(before, at, stride));
+    const double left = of_donor(at_face(after, at - s, stride), at_face(after, at, stride));
+    const double room = of_donor(at_face(porosity, at - s, stride), at_face(porosity, at, stride));
+    const double slope = Rule::slope_share(mass, left, room);
+    const double share = std::min(std::abs(through) / mass, 1.0);
+    const double more =
+        slope * 0.5 * (1.0 - share) * limited_slope(behind, of_donor(across, -across));
+    return of_donor(lower, upper) + (slope > 0.0 ? more : 0.0);
+  }
+};
 
 }  // namespace
 
@@ -69,61 +110,38 @@ IndexBox<D> inner_faces(const Grid<D>& grid, int axis) {
 }
 
 template <int D>
-MomentumTransport<D>::MomentumTransport(const Grid<D>& grid, const NearWater<D>& near)
+MomentumTransport<D>::MomentumTransport(const Grid<D>& grid, const CellRuns<D>& near)
     : grid_(&grid), near_(&near), moved_(grid, "moved velocity", "m/s") {}
 
 template <int D>
 template <class Rule>
-void MomentumTransport<D>::advance_component(int component, const CellField<D>& old_mass,
-                                             const CellField<D>& new_mass,
-                                             const CellField<D>& porosity,
-                                             const FaceVector<D>& mass_flux,
+void MomentumTransport<D>::advance_component(int component, const Masses<D>& masses,
                                              const FaceVector<D>& velocities) {
   const Grid<D>& grid = *grid_;
   const std::ptrdiff_t sa = grid.stride(component);
-  const auto at_face = [sa](const double* cells, std::ptrdiff_t at) {
-    return 0.5 * (cells[at - sa] + cells[at]);
-  };
-  const double *old = old_mass.data(), *now = new_mass.data(), *theta = porosity.data();
-  const double* velocity = velocities[component].data();
+  const auto flux = masses.flux->data();
+  const auto& strides = grid.strides();
+  const Component all{masses.before->data(), masses.after->data(), masses.porosity->data(),
+                      velocities[component].data(), sa};
   double* moved = moved_[component].data();
-  for_each_offset(*near_, inner_faces(grid, component), [&](std::ptrdiff_t at) {
-    const double v = velocity[at];
-    const double room = at_face(theta, at);
-    Exchange exchange;
-    bool still = true;
-    for (int axis = 0; axis < D; ++axis) {
-      const double* flux = mass_flux[axis].data();
-      const std::ptrdiff_t s = grid.stride(axis);
-      for (int side = 0; side < 2; ++side) {
-        const std::ptrdiff_t here =
-            at + side * s;  // the side lies between the faces here - s and here
-        const double through =
-            0.5 * (axis == component ? flux[here - s] + flux[here] : flux[here - sa] + flux[here]);
-        if (through == 0.0) continue;
-        still = false;
-        const std::ptrdiff_t donor = through > 0.0 ? here - s : here, step = through > 0.0 ? s : -s;
-        double carried = velocity[donor];
-        const double donor_mass = at_face(old, donor);
-        const double slope = Rule::slope_share(donor_mass, at_face(now, donor), room);
-        if (slope > 0.0) {
-          const double share = std::min(std::abs(through) / donor_mass, 1.0);
-          carried +=
-              slope * 0.5 * (1.0 - share) *
-              limited_slope(carried - velocity[donor - step], velocity[donor + step] - carried);
+  for_each_apart(
+      *near_, inner_faces(grid, component),
+      [&](std::ptrdiff_t at) {
+        const double v = all.velocity[at], left = at_face(all.after, at, sa);
+        Exchange exchange;
+#pragma GCC unroll 3
+        for (std::size_t u = 0; u < D; ++u) {
+          const std::ptrdiff_t s = strides[u], next = at + s;
+          const double lower = at_face(flux[u], at, sa), upper = at_face(flux[u], next, sa);
+          exchange.add(lower, all.carried<Rule>(lower, at, s) - v);
+          exchange.add(-upper, all.carried<Rule>(upper, next, s) - v);
         }
-        const double momentum = std::abs(through) * (carried - v);
-        exchange.change += donor == at ? momentum : -momentum;
-        if (donor != at) exchange.gained += momentum, exchange.came_in += std::abs(through);
-      }
-    }
-    if (still) {
-      moved[at] = v;
-      return;
-    }
-    const double left = at_face(now, at);
-    moved[at] = exchange.new_velocity(v, at_face(old, at), left, Rule::solid(exchange, left, room));
-  });
+        const double before = at_face(all.before, at, sa), room = at_face(all.porosity, at, sa);
+        const double solid = Rule::solid(exchange, left, room);
+        moved[at] = exchange.new_velocity(v, before, left, solid);
+      },
+      all.velocity + 2 * grid.stride(D - 1), all.before + grid.stride(D - 1),
+      all.after + grid.stride(D - 1), all.porosity + grid.stride(D - 1), flux, moved);
 }
 
 template <int D>
@@ -140,21 +158,20 @@ void MomentumTransport<D>::copy_to_open_walls(int component, double* values) con
 }
 
 template <int D>
-void MomentumTransport<D>::advance(Inertia inertia, const CellField<D>& old_mass,
-                                   const CellField<D>& new_mass, const CellField<D>& porosity,
-                                   const FaceVector<D>& mass_flux, FaceVector<D>& velocity) {
+void MomentumTransport<D>::advance(Inertia inertia, const Masses<D>& masses,
+                                   FaceVector<D>& velocity) {
   for (int component = 0; component < D; ++component) {
     if (inertia == Inertia::water)
-      advance_component<WaterRule>(component, old_mass, new_mass, porosity, mass_flux, velocity);
+      advance_component<WaterRule>(component, masses, velocity);
     else
-      advance_component<WaterAndGasRule>(component, old_mass, new_mass, porosity, mass_flux,
-                                         velocity);
+      advance_component<WaterAndGasRule>(component, masses, velocity);
   }
   for (int component = 0; component < D; ++component) {
     const double* from = moved_[component].data();
     double* to = velocity[component].data();
-    for_each_offset(*near_, inner_faces(*grid_, component),
-                    [&](std::ptrdiff_t at) { to[at] = from[at]; });
+    for_each_apart(
+        *near_, inner_faces(*grid_, component), [&](std::ptrdiff_t at) { to[at] = from[at]; }, from,
+        to);
     copy_to_open_walls(component, to);
   }
 }

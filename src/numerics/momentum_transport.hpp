@@ -5,7 +5,7 @@
 /// Fluids 28: the control volume of a face holds half the water of its two cells, M_f = (W_L +
 /// W_R)/2, and its fluxes are the means of theirs, so a uniform velocity stays uniform to the last
 /// bit whatever the interface does.
-#include "numerics/near_water.hpp"
+#include "numerics/cell_runs.hpp"
 
 namespace mudlark {
 
@@ -13,29 +13,31 @@ namespace mudlark {
 /// too.
 enum class Inertia { water, water_and_gas };
 
+/// What carries momentum, relative to water that fills the cell: its mass before and after the
+/// step, the porosity [1], and the share that passed each face. All with valid ghosts.
+template <int D>
+struct Masses {
+  const CellField<D>*before, *after, *porosity;
+  const FaceVector<D>* flux;
+};
+
 template <int D>
 class MomentumTransport {
  public:
-  MomentumTransport(const Grid<D>& grid, const NearWater<D>& near);
+  MomentumTransport(const Grid<D>& grid, const CellRuns<D>& near);
 
   /// velocity <- velocity - sum F (v* - velocity) / M_f^new on the faces inside the domain; v* is
-  /// upwind with van Leer's limited slope (van Leer 1974, J. Comput. Phys. 14). Masses are relative
-  /// to water that fills the cell; `mass_flux` is the share of it that passed each face. All inputs
-  /// need valid ghosts. Faces of open walls copy their inner neighbour; ghosts of `velocity` are
-  /// stale afterwards.
-  void advance(Inertia inertia, const CellField<D>& old_mass, const CellField<D>& new_mass,
-               const CellField<D>& porosity, const FaceVector<D>& mass_flux,
-               FaceVector<D>& velocity);
+  /// upwind with van Leer's limited slope (van Leer 1974, J. Comput. Phys. 14). The velocity needs
+  /// valid ghosts, which are stale afterwards. Faces of open walls copy their inner neighbour.
+  void advance(Inertia inertia, const Masses<D>& masses, FaceVector<D>& velocity);
 
  private:
   template <class Rule>
-  void advance_component(int component, const CellField<D>& old_mass, const CellField<D>& new_mass,
-                         const CellField<D>& porosity, const FaceVector<D>& mass_flux,
-                         const FaceVector<D>& velocity);
+  void advance_component(int component, const Masses<D>& masses, const FaceVector<D>& velocity);
   void copy_to_open_walls(int component, double* values) const;
 
   const Grid<D>* grid_;
-  const NearWater<D>* near_;
+  const CellRuns<D>* near_;
   FaceVector<D> moved_;
 };
 

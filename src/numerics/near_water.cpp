@@ -19,7 +19,9 @@ NearWater<D>::NearWater(const Grid<D>& grid)
       ghosts_(grid),
       near_(grid, "near water", "1"),
       wider_(grid, "near water", "1"),
-      wet_(grid, "wet", "1") {
+      wet_(grid, "wet", "1"),
+      cells_(grid),
+      beside_(grid) {
   take_all();
 }
 
@@ -27,7 +29,8 @@ template <int D>
 void NearWater<D>::take_all() {
   if (all_) return;
   near_.fill(1);
-  find_runs();
+  cells_.find(near_);
+  beside_.find(near_);
   all_ = true;
 }
 
@@ -62,7 +65,7 @@ void NearWater<D>::for_each_candidate(bool anywhere, Body&& body) const {
   if (anywhere)
     for_each_offset(*grid_, grid_->local(), body);
   else
-    for_each_offset(*this, grid_->local(), body);
+    for_each_offset(cells_, grid_->local(), body);
 }
 
 template <int D>
@@ -77,7 +80,9 @@ void NearWater<D>::find(const CellField<D>& water, const CellField<D>& porosity,
     mark[at] = now || wet[at] ? 1 : 0;
     wet[at] = now ? 1 : 0;
   });
-  dilate<3>();
+  dilate<1>();
+  if (!anywhere) beside_.find(near_);
+  dilate<2>();
   mark = near_.data();
   for (int a = 0; a < D; ++a) {
     const double* v = velocity[a].data();
@@ -86,29 +91,9 @@ void NearWater<D>::find(const CellField<D>& water, const CellField<D>& porosity,
     });
   }
   dilate<2>();
-  find_runs();
+  cells_.find(near_);
+  if (anywhere) beside_.find(near_);
   all_ = false;
-}
-
-template <int D>
-void NearWater<D>::find_runs() {
-  runs_.clear();
-  row_starts_.assign(1, 0);
-  IndexBox<D> rows = grid_->local();
-  const int first = rows.lower[0], end = rows.upper[0];
-  rows.upper[0] = first + 1;
-  const auto length = static_cast<std::size_t>(end - first);
-  for_each(rows, [&](Index<D> index) {
-    const std::ptrdiff_t start = grid_->offset(index);
-    const std::uint8_t *row = near_.data() + start, *last = row + length, *mark = row;
-    while ((mark = std::find(mark, last, std::uint8_t{1})) != last) {
-      const std::uint8_t* after = std::find(mark, last, std::uint8_t{0});
-      index[0] = first + static_cast<int>(mark - row);
-      runs_.push_back({index, first + static_cast<int>(after - row), start + (mark - row)});
-      mark = after;
-    }
-    row_starts_.push_back(runs_.size());
-  });
 }
 
 template class NearWater<2>;

@@ -37,7 +37,7 @@ bool passes_ground(const double* water, const double* porosity, const double* dr
 }  // namespace
 
 template <int D>
-VelocityExtension<D>::VelocityExtension(const Grid<D>& grid, const NearWater<D>& near)
+VelocityExtension<D>::VelocityExtension(const Grid<D>& grid, const CellRuns<D>& near)
     : grid_(&grid),
       near_(&near),
       ghosts_(grid),
@@ -59,17 +59,20 @@ void VelocityExtension<D>::mark(int component, const CellField<D>& unknown,
   const double* below = capacity[D - 1].data();
   const auto on_body = [&](std::ptrdiff_t cell) { return w[cell] > 0.0 && below[cell] == 0.0; };
   const double* open = capacity[component].data();
-  for_each_offset(*near_, box, [&](std::ptrdiff_t at) {
-    const double held = w[at] + w[at - s], room = theta[at] + theta[at - s];
-    if (open[at] == 0.0)
-      state[at] = closed;
-    else if (inside[at] + inside[at - s] > 0.0)
-      state[at] = governed * std::min(held / room, 1.0);
-    else if (held <= dust * room)
-      state[at] = empty;
-    else
-      state[at] = on_body(at) || on_body(at - s) ? film : free_fly;
-  });
+  for_each_offset(
+      *near_, box,
+      [&](std::ptrdiff_t at) {
+        const double held = w[at] + w[at - s], room = theta[at] + theta[at - s];
+        if (open[at] == 0.0)
+          state[at] = closed;
+        else if (inside[at] + inside[at - s] > 0.0)
+          state[at] = governed * std::min(held / room, 1.0);
+        else if (held <= dust * room)
+          state[at] = empty;
+        else
+          state[at] = on_body(at) || on_body(at - s) ? film : free_fly;
+      },
+      w, theta, inside, open, state);
   for (int side = 0; side < 2; ++side) {
     if (!grid.touches(component, side) || grid.wall(component, side) == Wall::open) continue;
     IndexBox<D> wall = grid.local();
@@ -78,6 +81,20 @@ void VelocityExtension<D>::mark(int component, const CellField<D>& unknown,
     wall.upper[component] = wall.lower[component] + 1;
     for_each_offset(grid, wall, [&](std::ptrdiff_t at) { state[at] = closed; });
   }
+}
+
+/// Lists the faces of a component that wait for a value, in a box in which all neighbours are
+/// valid.
+template <int D>
+void VelocityExtension<D>::find_waiting(int component) {
+  const double* state = state_[component].data();
+  waiting_.clear();
+  for_each_offset(
+      *near_, grid_->owned().grown(ghost_layers - 1),
+      [&](std::ptrdiff_t at) {
+        if (state[at] < 0.0) waiting_.push_back(at);
+      },
+      state);
 }
 
 /// Faces next to governed ones: n . grad v = 0 with the upwind differences along the axes in which
@@ -89,33 +106,47 @@ void VelocityExtension<D>::grow_along_normal(int component, const CellField<D>& 
                                              const CellField<D>& porosity,
                                              const CellField<D>& drains, double* velocity) {
   const Grid<D>& grid = *grid_;
-  IndexBox<D> box = grid.owned().grown(ghost_layers - 1);
   double* state = state_[component].data();
   const double* w = water.data();
   const double* theta = porosity.data();
   const std::ptrdiff_t sc = grid.stride(component);
-  for_each_place(*near_, box, [&](std::ptrdiff_t at, const Index<D>& index) {
-    if (state[at] >= 0.0) return;
+  auto& flies = flies_[static_cast<std::size_t>(component)];
+  std::erase_if(waiting_, [&](std::ptrdiff_t at) {
     if (state[at] == free_fly && passes_ground(w, theta, drains.data(), at, sc)) {
       state[at] = flying;
-      return;
+      flies.push_back(at);
+      return true;
     }
     const double room = theta[at] + theta[at - sc];
     const double held = room > 0.0 ? (w[at] + w[at - sc]) / room : 0.0;
     double sum = 0.0, weights = 0.0, mean = 0.0, count = 0.0;
     for (int axis = 0; axis < D; ++axis) {
       const std::ptrdiff_t s = grid.stride(axis);
-      const double h = grid.width(axis, index[axis]);
       for (const std::ptrdiff_t other : {at - s, at + s}) {
         if (state[other] <= 0.0 || state[other] > governed) continue;
+        const double h = grid.width_at(axis, at);
         const double weight = std::max(state[other] / governed - held, 0.0) / (h * h);
         sum += weight * velocity[other], weights += weight;
         mean += velocity[other], count += 1.0;
       }
     }
-    if (count == 0.0) return;
+    if (count == 0.0) return false;
     velocity[at] = weights > 0.0 ? sum / weights : mean / count;
     state[at] = 1.0;
+    return true;
+  });
+}
+
+/// Faces with water that no governed one is next to.
+template <int D>
+void VelocityExtension<D>::let_fly(int component) {
+  double* state = state_[component].data();
+  auto& flies = flies_[static_cast<std::size_t>(component)];
+  std::erase_if(waiting_, [&](std::ptrdiff_t at) {
+    if (state[at] != free_fly) return false;
+    state[at] = flying;
+    flies.push_back(at);
+    return true;
   });
 }
 
@@ -124,12 +155,9 @@ void VelocityExtension<D>::grow_along_normal(int component, const CellField<D>& 
 template <int D>
 void VelocityExtension<D>::grow_layer(int component, int layer, double* velocity) {
   const Grid<D>& grid = *grid_;
-  IndexBox<D> box = grid.owned().grown(ghost_layers - layer);
-  if (grid.touches(component, 1)) box = box.extended(component, 1);
   double* state = state_[component].data();
   const double mine = static_cast<double>(layer);
-  for_each_offset(*near_, box, [&](std::ptrdiff_t at) {
-    if (state[at] >= 0.0) return;
+  std::erase_if(waiting_, [&](std::ptrdiff_t at) {
     double sum = 0.0, count = 0.0;
     for (int axis = 0; axis < D; ++axis) {
       const std::ptrdiff_t s = grid.stride(axis);
@@ -137,9 +165,10 @@ void VelocityExtension<D>::grow_layer(int component, int layer, double* velocity
         if (state[other] > 0.0 && (state[other] < mine || state[other] == flying))
           sum += velocity[other], count += 1.0;
     }
-    if (count == 0.0) return;
+    if (count == 0.0) return false;
     velocity[at] = sum / count;
     state[at] = mine;
+    return true;
   });
 }
 
@@ -147,42 +176,20 @@ template <int D>
 void VelocityExtension<D>::extend(const CellField<D>& unknown, const CellField<D>& water,
                                   const CellField<D>& porosity, const FaceVector<D>& capacity,
                                   const CellField<D>& drains, FaceVector<D>& velocity) {
-  const Grid<D>& grid = *grid_;
   for (int component = 0; component < D; ++component)
     mark(component, unknown, water, porosity, capacity);
   ghosts_.exchange(state_);  // the lowest ghost face of a rank lacks one of its cells there
   for (int component = 0; component < D; ++component) {
     double* v = velocity[component].data();
-    double* state = state_[component].data();
+    find_waiting(component);
+    flies_[static_cast<std::size_t>(component)].clear();
     grow_along_normal(component, water, porosity, drains, v);
-    const auto all = grid.local();
-    for_each_offset(*near_, all, [&](std::ptrdiff_t at) {
-      if (state[at] == free_fly) state[at] = flying;
-    });
+    let_fly(component);
     for (int layer = 2; layer <= ghost_layers; ++layer) grow_layer(component, layer, v);
-    for_each_offset(*near_, grid.owned_faces(component), [&](std::ptrdiff_t at) {
-      if (state[at] < 0.0) v[at] = 0.0;
-    });
+    for (const std::ptrdiff_t at : waiting_) v[at] = 0.0;
   }
   ghosts_.update_velocity(velocity, *near_);
   keep_from_closing(unknown, water, porosity, drains, velocity);
-}
-
-/// Lists the faces that fly. Returns whether there are any on any rank.
-template <int D>
-bool VelocityExtension<D>::find_flying() {
-  const Grid<D>& grid = *grid_;
-  double any = 0.0;
-  for (int axis = 0; axis < D; ++axis) {
-    auto& faces = flies_[static_cast<std::size_t>(axis)];
-    faces.clear();
-    const double* state = state_[axis].data();
-    for_each_offset(*near_, grid.owned_faces(axis), [&](std::ptrdiff_t at) {
-      if (state[at] == flying) faces.push_back(at);
-    });
-    if (!faces.empty()) any = 1.0;
-  }
-  return max_over_ranks(grid, any) > 0.0;
 }
 
 /// Lists the cells beside faces that fly that may open but not close.
@@ -212,7 +219,7 @@ double VelocityExtension<D>::squeeze(std::ptrdiff_t at, const FaceVector<D>& vel
     const double* v = velocity[axis].data();
     const double* state = state_[axis].data();
     const std::ptrdiff_t s = grid.stride(axis);
-    const double inverse = 1.0 / grid.width(axis, grid.index_along(axis, at));
+    const double inverse = 1.0 / grid.width_at(axis, at);
     opening += (v[at + s] - v[at]) * inverse;
     free_sides +=
         inverse * ((state[at] == flying ? 1.0 : 0.0) + (state[at + s] == flying ? 1.0 : 0.0));
@@ -225,7 +232,8 @@ void VelocityExtension<D>::keep_from_closing(const CellField<D>& unknown, const 
                                              const CellField<D>& porosity,
                                              const CellField<D>& drains, FaceVector<D>& velocity) {
   const Grid<D>& grid = *grid_;
-  if (!find_flying()) return;
+  const bool none = std::ranges::all_of(flies_, [](const auto& faces) { return faces.empty(); });
+  if (max_over_ranks(grid, none ? 0.0 : 1.0) == 0.0) return;
   ghosts_.exchange(state_);
   find_cells_to_keep(unknown.data(), water.data(), porosity.data(), drains.data());
   double* squeezed = squeeze_.data();

@@ -3,14 +3,15 @@
 #include <array>
 #include <vector>
 
-#include "numerics/near_water.hpp"
+#include "numerics/cell_runs.hpp"
+#include "numerics/ghosts.hpp"
 
 namespace mudlark {
 
 template <int D>
 class VelocityExtension {
  public:
-  VelocityExtension(const Grid<D>& grid, const NearWater<D>& near);
+  VelocityExtension(const Grid<D>& grid, const CellRuns<D>& near);
 
   /// Faces that touch a cell with `unknown` = 1 keep their velocity. Faces next to them take
   /// theirs, constant along the normal of the surface. Farther faces with water fly on freely with
@@ -27,23 +28,25 @@ class VelocityExtension {
  private:
   void mark(int component, const CellField<D>& unknown, const CellField<D>& water,
             const CellField<D>& porosity, const FaceVector<D>& capacity);
+  void find_waiting(int component);
   void grow_along_normal(int component, const CellField<D>& water, const CellField<D>& porosity,
                          const CellField<D>& drains, double* velocity);
+  void let_fly(int component);
   void grow_layer(int component, int layer, double* velocity);
   void keep_from_closing(const CellField<D>& unknown, const CellField<D>& water,
                          const CellField<D>& porosity, const CellField<D>& drains,
                          FaceVector<D>& velocity);
-  bool find_flying();
   void find_cells_to_keep(const double* unknown, const double* water, const double* porosity,
                           const double* drains);
   double squeeze(std::ptrdiff_t at, const FaceVector<D>& velocity) const;
 
   const Grid<D>* grid_;
-  const NearWater<D>* near_;
+  const CellRuns<D>* near_;
   Ghosts<D> ghosts_;
   FaceVector<D> state_;
   CellField<D> squeeze_;
-  std::array<std::vector<std::ptrdiff_t>, D> flies_;  ///< places of the faces that fly
+  std::vector<std::ptrdiff_t> waiting_;  ///< places of the faces that have no value yet
+  std::array<std::vector<std::ptrdiff_t>, D> flies_;  ///< of those that fly, with ghosts
   std::vector<std::ptrdiff_t> keeps_open_;            ///< of cells beside them that must not close
 };
 

@@ -58,7 +58,7 @@ Errors advect(int cells, const Shape& shape, double end, double courant, Stream&
   FaceVector<2> flux(grid, "flux", "m/s");
   fill(grid, shape, water);
   const CellField<2> start = water.copy();
-  const NearWater<2> everywhere(grid);
+  const CellRuns<2> everywhere(grid);
   InterfaceAdvection<2> advection(grid, everywhere);
   const int steps = static_cast<int>(std::ceil(end / (courant * grid.spacing()[0])));
   Errors errors;
@@ -149,7 +149,7 @@ PorousErrors advect_in_moving_ground(bool fourth_sweep) {
   fill(grid, Shape{SphereShape{{0.45, 0.0, 0.55}, 0.3, true}}, water);
   double before = 0.0, after = 0.0;
   for_each(grid.owned(), [&](const Index<2>& cell) { before += water[cell] *= porosity[cell]; });
-  const NearWater<2> everywhere(grid);
+  const CellRuns<2> everywhere(grid);
   InterfaceAdvection<2> advection(grid, everywhere);
   PorousErrors errors;
   double lowest = 1.0, highest = 0.0;

@@ -33,14 +33,14 @@ struct State {
 };
 
 /// Cells of all ranks that are near.
-double near_cells(const Grid<2>& grid, const NearWater<2>& near) {
+double near_cells(const Grid<2>& grid, const CellRuns<2>& near) {
   double count = 0.0;
   for_each_offset(near, grid.owned(), [&](std::ptrdiff_t) { count += 1.0; });
   return sum_over_ranks(grid, count);
 }
 
 template <class Expected>
-void expect_near(const Grid<2>& grid, const NearWater<2>& near, Expected&& expected) {
+void expect_near(const Grid<2>& grid, const CellRuns<2>& near, Expected&& expected) {
   CellField<2> found(grid, "found", "1");
   for_each_place(near, grid.owned(),
                  [&](std::ptrdiff_t at, const Index<2>&) { found.data()[at] += 1.0; });
@@ -51,7 +51,7 @@ void expect_near(const Grid<2>& grid, const NearWater<2>& near, Expected&& expec
 
 TEST(NearWater, IsEverywhereAtFirst) {
   const Grid<2> grid = grid_of(40, Wall::slip);
-  EXPECT_EQ(near_cells(grid, NearWater<2>(grid)), 40.0 * 24.0);
+  EXPECT_EQ(near_cells(grid, NearWater<2>(grid).cells()), 40.0 * 24.0);
 }
 
 TEST(NearWater, ReachesFiveCellsFromWaterAndTwoFromAVelocity) {
@@ -69,7 +69,7 @@ TEST(NearWater, ReachesFiveCellsFromWaterAndTwoFromAVelocity) {
   const auto within = [](const Index<2>& cell, int i, int j, int reach) {
     return std::abs(cell[0] - i) <= reach && std::abs(cell[1] - j) <= reach;
   };
-  expect_near(grid, near, [&](const Index<2>& cell) {
+  expect_near(grid, near.cells(), [&](const Index<2>& cell) {
     return within(cell, 13, 11, 5) || within(cell, 27, 18, 2);
   });
   // Water that vanished counts once more; ground only where it is asked for.
@@ -78,9 +78,9 @@ TEST(NearWater, ReachesFiveCellsFromWaterAndTwoFromAVelocity) {
   state.velocity.fill(0.0);
   state.update(grid);
   near.find(state.water, state.porosity, state.velocity, false);
-  expect_near(grid, near, [&](const Index<2>& cell) { return within(cell, 13, 11, 5); });
+  expect_near(grid, near.cells(), [&](const Index<2>& cell) { return within(cell, 13, 11, 5); });
   near.find(state.water, state.porosity, state.velocity, true);
-  expect_near(grid, near, [&](const Index<2>& cell) { return within(cell, 35, 12, 5); });
+  expect_near(grid, near.cells(), [&](const Index<2>& cell) { return within(cell, 35, 12, 5); });
 }
 
 TEST(NearWater, GoesOnAcrossAPeriodicSeam) {
@@ -90,11 +90,11 @@ TEST(NearWater, GoesOnAcrossAPeriodicSeam) {
   state.update(grid);
   NearWater<2> near(grid);
   near.find(state.water, state.porosity, state.velocity, false);
-  expect_near(grid, near, [&](const Index<2>& cell) {
+  expect_near(grid, near.cells(), [&](const Index<2>& cell) {
     return (cell[0] <= 6 || cell[0] >= 36) && std::abs(cell[1] - 12) <= 5;
   });
   near.take_all();
-  EXPECT_EQ(near_cells(grid, near), 40.0 * 24.0);
+  EXPECT_EQ(near_cells(grid, near.cells()), 40.0 * 24.0);
 }
 
 TEST(NearWater, LooksWhereItWasNearIfNothingElseChanges) {
@@ -111,9 +111,39 @@ TEST(NearWater, LooksWhereItWasNearIfNothingElseChanges) {
   set({{30, 11}}, 1.0);  // beyond them: not looked for
   state.update(grid);
   near.find(state.water, state.porosity, state.velocity, false, false);
-  expect_near(grid, near, [&](const Index<2>& cell) {
+  expect_near(grid, near.cells(), [&](const Index<2>& cell) {
     return cell[0] >= 8 && cell[0] <= 20 && std::abs(cell[1] - 11) <= 5;
   });
+}
+
+TEST(NearWater, BesideTheWaterIsWithinOneCellIfNothingElseChanges) {
+  const Grid<2> grid = grid_of(40, Wall::slip);
+  State state(grid);
+  const auto set = [&](Index<2> cell, double value) {
+    if (grid.owned().contains(cell)) state.water[cell] = value;
+  };
+  const auto beside = [](const Index<2>& cell, int i) {
+    return std::abs(cell[0] - i) <= 1 && std::abs(cell[1] - 11) <= 1;
+  };
+  set({{13, 11}}, 1.0);
+  state.update(grid);
+  NearWater<2> near(grid);
+  near.find(state.water, state.porosity, state.velocity, false);  // anything may have changed
+  expect_near(grid, near.beside(), [&](const Index<2>& cell) {
+    return std::abs(cell[0] - 13) <= 5 && std::abs(cell[1] - 11) <= 5;
+  });
+  near.find(state.water, state.porosity, state.velocity, false, false);
+  expect_near(grid, near.beside(), [&](const Index<2>& cell) { return beside(cell, 13); });
+  set({{13, 11}}, 0.0);  // what it left counts once more
+  set({{14, 11}}, 1.0);
+  state.update(grid);
+  near.find(state.water, state.porosity, state.velocity, false, false);
+  expect_near(grid, near.beside(),
+              [&](const Index<2>& cell) { return beside(cell, 13) || beside(cell, 14); });
+  near.find(state.water, state.porosity, state.velocity, false, false);
+  expect_near(grid, near.beside(), [&](const Index<2>& cell) { return beside(cell, 14); });
+  near.take_all();
+  EXPECT_EQ(near_cells(grid, near.beside()), 40.0 * 24.0);
 }
 
 /// Water and velocity in two opposite corners: behind walls of a kind their ghosts near the water
@@ -132,10 +162,10 @@ void expect_same_ghosts(const Grid<2>& grid) {
   all.update(grid);
   NearWater<2> near(grid);
   near.find(all.water, all.porosity, all.velocity, false);
-  ASSERT_LT(near_cells(grid, near), 40.0 * 24.0);
+  ASSERT_LT(near_cells(grid, near.cells()), 40.0 * 24.0);
   Ghosts<2> ghosts(grid);
-  ghosts.update(some.water, near);
-  ghosts.update_velocity(some.velocity, near);
+  ghosts.update(some.water, near.cells());
+  ghosts.update_velocity(some.velocity, near.cells());
   for_each(grid.local(), [&](const Index<2>& cell) {
     EXPECT_EQ(some.water[cell], all.water[cell]) << cell[0] << " " << cell[1];
     for (int a = 0; a < 2; ++a)
