@@ -43,6 +43,32 @@ WaterOfFace water_under_surface(double theta, double share, double solid, double
   return {theta + ends * (water - theta), theta + ends * (water * grains / share - theta)};
 }
 
+/// What of a face moves with its grains, per volume: inertia [kg/m3], momentum before the step, and
+/// the force on it.
+struct GrainsOfFace {
+  double inertia, momentum, force;
+
+  void add(double part, double mass, double velocity, double push) {
+    inertia += part * mass, momentum += part * mass * velocity, force += part * push;
+  }
+};
+
+/// Faces of one axis that the surface may pass.
+struct SurfaceFaces {
+  const double *governed, *reach, *shares;
+  std::ptrdiff_t stride;
+
+  bool passes(std::ptrdiff_t at) const {
+    return (governed[at] > 0.0) != (governed[at - stride] > 0.0);
+  }
+  WaterOfFace water(std::ptrdiff_t at, double theta, double part) const {
+    if (!passes(at) || !(theta > 0.0) || !(shares[at] > 0.0)) return {theta, theta};
+    const std::ptrdiff_t in = governed[at] > 0.0 ? stride : -stride;
+    const double solid = std::max({shares[at], shares[at + in], shares[at + 2 * in]});
+    return water_under_surface(theta, shares[at], solid, part, std::min(reach[at], 1.0));
+  }
+};
+
 }  // namespace
 
 template <int D>
@@ -76,14 +102,15 @@ void GrainsInWater<D>::couple(const FaceVector<D>& capacity, const CellField<D>&
     double *flux_m = flux_mobility_[axis].data(), *grain_m = grain_mobility_[axis].data();
     const double *rim = scratch_[axis].data(), *before = flux_[axis].data();
     flux_[axis].copy_values_from(grains.velocity[axis]);
+    const double *inertia = grains.inertia[axis].data(), *force = grains.force[axis].data();
+    const SurfaceFaces surface{governed, reach[axis].data(), grains.share[axis].data(), s};
     const double* free_share = residual ? residual->free_share()[axis].data() : nullptr;
     const double* held = residual ? residual->mass()[axis].data() : nullptr;
     const double* held_weight = residual ? residual->weight()[axis].data() : nullptr;
     for_each_offset(grid, bounding_faces(grid, axis), [&](std::ptrdiff_t at) {
       const double share = grains.share[axis].data()[at];
-      double inertia = grains.inertia[axis].data()[at];
       const bool open = theta[at] > 0.0;
-      if (inertia > 0.0) {
+      if (inertia[at] > 0.0) {
         // Where no pressure acts, water is what the cell that it comes from holds, and k_r of the
         // permeability is left to it: S^2 theta^2 A / k_r pulls at the grains (NUMERICS C2).
         const bool wet = governed[at] + governed[at - s] > 0.0;
@@ -94,29 +121,15 @@ void GrainsInWater<D>::couple(const FaceVector<D>& capacity, const CellField<D>&
         const double pull = known ? 1.0 : drag_of_part(grains.filling, filled);
         const double resistance = grains.resistance[axis].data()[at];
         const double loose = residual && !known ? free_share[at] : 1.0;
-        double force = grains.force[axis].data()[at], momentum = inertia * grain_v[at];
-        if (rim[at] != 0.0) {  // the rim moves with this face
-          const std::ptrdiff_t other = rim[at] > 0.0 ? at + s : at - s;
-          const double more = std::abs(rim[at]) * grains.inertia[axis].data()[other];
-          force += std::abs(rim[at]) * grains.force[axis].data()[other];
-          momentum += more * before[other];
-          inertia += more;
-        }
-        if (residual && open) {
-          inertia += held[at], force += held_weight[at];
-          momentum += held[at] * grain_v[at];
-        }
-        WaterOfFace here{theta[at], theta[at]};
-        if (wet && governed[at] * governed[at - s] == 0.0 && share > 0.0 && open) {
-          const std::ptrdiff_t in = governed[at] > 0.0 ? s : -s;
-          const double* shares = grains.share[axis].data();
-          const double solid = std::max({share, shares[at + in], shares[at + 2 * in]});
-          const double level = std::min(reach[axis].data()[at], 1.0);
-          here = water_under_surface(theta[at], share, solid, grain_m[at], level);
-        }
-        const FaceSystem face{inertia, open ? loose * filled * here.mass * dt / m[at] : 0.0,
+        GrainsOfFace moved{inertia[at], inertia[at] * grain_v[at], force[at]};
+        const std::ptrdiff_t other = rim[at] > 0.0 ? at + s : at - s;
+        if (rim[at] != 0.0)  // the rim moves with this face
+          moved.add(std::abs(rim[at]), inertia[other], before[other], force[other]);
+        if (residual && open) moved.add(1.0, held[at], grain_v[at], held_weight[at]);
+        const WaterOfFace here = surface.water(at, theta[at], grain_m[at]);
+        const FaceSystem face{moved.inertia, open ? loose * filled * here.mass * dt / m[at] : 0.0,
                               loose * dt * pull * theta[at] * here.drag * resistance};
-        const Pair now = face.solve(momentum + dt * force, face.water_mass * v[at]);
+        const Pair now = face.solve(moved.momentum + dt * moved.force, face.water_mass * v[at]);
         const Pair answer =
             face.solve(dt * share * grain_m[at], dt * (rest[at] + here.mass - theta[at]));
         grain_v[at] = now.grains;

@@ -16,9 +16,8 @@ void check(const CaseOptions& options, const StrengthReductionSettings& settings
   if (options.flow && options.coupling.mode != CouplingMode::unified)
     throw InputError(
         "strength reduction: free water ([[water.body]]) goes with coupling.mode = \"unified\" "
-        "only, "
-        "where rest is that of soil and water together. Write it, with pore_water = \"unified\" in "
-        "each [[soil]], or leave the water out and give its weight as a [[load]].");
+        "only, where rest is that of soil and water together. Write it, with pore_water = "
+        "\"unified\" in each [[soil]], or leave the water out and give its weight as a [[load]].");
   const auto& stages = options.soil->stages;
   if (!options.soil->stop_when_static && (stages.empty() || !stages.back().stop_when_static))
     throw InputError(
