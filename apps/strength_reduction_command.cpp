@@ -29,12 +29,23 @@ StrengthReductionSettings settings_of(const StrengthReductionArguments& argument
   return settings;
 }
 
+/// A trial that only ran out of time is no proof of failure.
+std::string doubt_of(const StrengthReductionResult& result) {
+  const StrengthTrial* open = result.undecided();
+  if (!open) return {};
+  return fmt::format(
+      "warning: at F = {:.6g} the soil had neither come to rest nor moved too far when the run "
+      "ended at {:.4g} s: the factor may be larger. A later end tells (time.end, or that of the "
+      "last stage); --lower {:.6g} spares the trials below.\n",
+      open->factor, open->time, *result.stands);
+}
+
 /// Prints what was found; the search has failed when the factor is not between the bounds.
 ExitCode conclude(const StrengthReductionResult& result, bool first) {
   if (const auto factor = result.factor()) {
     if (first)
-      fmt::print("factor of safety {:.4g} (stands at {:.6g}, fails at {:.6g})\n", *factor,
-                 *result.stands, *result.fails);
+      fmt::print("factor of safety {:.4g} (stands at {:.6g}, fails at {:.6g})\n{}", *factor,
+                 *result.stands, *result.fails, doubt_of(result));
     return ExitCode::done;
   }
   if (!result.fails)

@@ -7,6 +7,7 @@ from matplotlib.colors import LinearSegmentedColormap, Normalize
 WATER = LinearSegmentedColormap.from_list("water", [(0.12, 0.45, 0.78, 0.0), (0.12, 0.45, 0.78, 0.75)])
 GROUND = "#b9a68a"
 SOIL = "#a9793f"
+SOILS = (SOIL, "#6f5a46", "#d0a866", "#8c8a5c", "#b5653f", "#c9bb9b")  # of cases with several, in turn
 SOLID = "#6b7178"
 NARROW = 4.0  # domains that are higher or longer than this many times the other way are not drawn to scale
 
@@ -75,12 +76,33 @@ def draw_surface(axes, results, state):
     return True
 
 
+def draw_surface_in_ground(axes, results, time, points, colour):
+    """Line along the water's surface where it lies in soil or porous ground (phreatic line). Returns whether there is
+    one."""
+    share = water_share(results, time)
+    if share is None or "porosity" not in results.field_names:
+        return False
+    state = results.field("porosity", time)
+    ground = state.plane < 0.999
+    if points is not None and len(points):
+        ground = near_points(state, points, reach=0) | (ground & ~near_points(state, points, reach=2))
+    shown = share[ground]
+    if not shown.size or shown.min() >= 0.5 or shown.max() < 0.5:
+        return False
+    share = np.ma.array(share, mask=~ground)
+    axes.contour(state.centres(0), state.centres(len(state.lower) - 1), share, levels=[0.5], colors=[colour],
+                 linewidths=1.2, zorder=3.5)
+    return True
+
+
 def near_points(state, points, reach):
-    """Cells of the x-z plane with a soil point in them or within `reach` cells."""
+    """Cells of the drawn x-z plane with a soil point in them or within `reach` cells. In 3D points of other planes
+    do not count: beside a slide the water is to be seen."""
     counts = (state.values.shape[0], state.values.shape[len(state.lower) - 1])
     near = np.zeros(counts, bool)
-    row = np.floor((points["position"][:, 2] - state.lower[-1]) / state.spacing[-1]).astype(int)
-    column = np.floor((points["position"][:, 0] - state.lower[0]) / state.spacing[0]).astype(int)
+    position = points["position"][points_in_cut(points, state)]
+    row = np.floor((position[:, 2] - state.lower[-1]) / state.spacing[-1]).astype(int)
+    column = np.floor((position[:, 0] - state.lower[0]) / state.spacing[0]).astype(int)
     for up in range(-reach, reach + 1):
         for aside in range(-reach, reach + 1):
             near[np.clip(row + up, 0, counts[0] - 1), np.clip(column + aside, 0, counts[1] - 1)] = True
@@ -157,7 +179,8 @@ def draw_points(axes, points, chosen, values=None, norm=None, cmap="viridis"):
                         for sx, sz in ((-1, -1), (1, -1), (1, 1), (-1, 1))], axis=1)
     squares = PolyCollection(corners, zorder=3, linewidths=0.3, rasterized=len(x) > 20000)
     if values is None:
-        squares.set_facecolor(SOIL)
+        squares.set_facecolor([SOILS[int(body) % len(SOILS)] for body in points["soil"][chosen]]
+                              if "soil" in points else SOIL)
         squares.set_edgecolor("face")
     else:
         squares.set_array(values[chosen])

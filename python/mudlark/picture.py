@@ -6,11 +6,14 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
+from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from mudlark import drawing
 from mudlark.plot import STYLE
 from mudlark.results import Results, ResultsError
+
+SURFACE = "#0b2f66"
 
 
 def draw_start(folder, path):
@@ -32,9 +35,13 @@ def draw_start(folder, path):
             legend.append(Patch(color=drawing.WATER(1.0), label="water"))
         if points is not None:
             drawing.draw_points(axes, points, drawing.points_in_cut(points, grid))
-            legend.append(Patch(color=drawing.SOIL, label="soil"))
+            names = results.soil_names
+            legend += [Patch(color=drawing.SOILS[index % len(drawing.SOILS)], label=name)
+                       for index, name in enumerate(names if len(names) > 1 else ["soil"])]
         if any(collection.get_zorder() == 2 for collection in axes.collections):
             legend.append(Patch(facecolor=drawing.GROUND, hatch="...", alpha=0.6, label="porous ground"))
+        if drawing.draw_surface_in_ground(axes, results, time, points, SURFACE):
+            legend.append(Line2D([], [], color=SURFACE, lw=1.2, label="water's surface in the ground"))
         if drawing.draw_solids(axes, results, time):
             legend.append(Patch(color=drawing.SOLID, label="rigid body"))
         drawing.apply_frame(axes, limits)

@@ -128,6 +128,7 @@ def draw_states(results, times, path, quantity=None):
         if points[index] is not None:
             coloured = values[index][0] * factor if quantity else None
             squares = drawing.draw_points(axis, points[index], cuts[index], coloured, norm)
+        drawing.draw_surface_in_ground(axis, results, time, points[index], "white")
         drawing.draw_solids(axis, results, time)
         finish_panel(axis, limits, time)
     if squares is not None and quantity:

@@ -9,6 +9,7 @@
 """
 import csv
 import json
+import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -120,6 +121,13 @@ class Results:
         path = self.folder / "case.toml"
         return path.exists() and any(line.split("#")[0].replace(" ", "").startswith('air="gas"')
                                      for line in path.read_text().splitlines())
+
+    @property
+    def soil_names(self):
+        """Names of the soils; "soil" of a point counts them from 0."""
+        path = self.folder / "case.toml"
+        case = tomllib.loads(path.read_text()) if path.exists() else {}
+        return [soil["name"] for soil in case.get("soil", [])]
 
     # ------------------------------------------------------------------------------------------- gauges
     @property

@@ -110,6 +110,70 @@ double sampled_fraction(const Shape& shape, const Point3& lower, const Point3& u
   return static_cast<double>(hits) / (samples * across * samples);
 }
 
+/// Whether the straight line from a to b comes into the open rectangle from `low` to `high`, or
+/// may.
+bool may_cross(const std::array<double, 2>& a, const std::array<double, 2>& b,
+               const std::array<double, 2>& low, const std::array<double, 2>& high) {
+  for (std::size_t k = 0; k < 2; ++k)
+    if (std::max(a[k], b[k]) <= low[k] || std::min(a[k], b[k]) >= high[k]) return false;
+  int left = 0, right = 0;  // corners of the rectangle on either side of the line
+  for (const double first : {low[0], high[0]})
+    for (const double second : {low[1], high[1]}) {
+      const double side = (b[0] - a[0]) * (second - a[1]) - (b[1] - a[1]) * (first - a[0]);
+      if (side >= 0.0) ++left;
+      if (side <= 0.0) ++right;
+    }
+  return left < 4 && right < 4;
+}
+
+bool may_cross(const PolygonShape& polygon, const Point3& lower, const Point3& upper) {
+  const std::size_t second = polygon.vertical_plane ? 2 : 1;
+  if (!polygon.vertical_plane)
+    for (const double level : {polygon.bottom, polygon.top})
+      if (level > lower[2] && level < upper[2]) return true;
+  const auto& corners = polygon.corners;
+  for (std::size_t i = 0, j = corners.size() - 1; i < corners.size(); j = i++)
+    if (may_cross(corners[j], corners[i], {lower[0], lower[second]}, {upper[0], upper[second]}))
+      return true;
+  return false;
+}
+
+bool may_cross(const BelowShape& below, const Point3& lower, const Point3& upper) {
+  const auto& line = below.line;
+  const std::array<double, 2> low{lower[0], lower[2]}, high{upper[0], upper[2]};
+  if (may_cross({-infinity, line.front()[1]}, line.front(), low, high)) return true;
+  for (std::size_t i = 1; i < line.size(); ++i)
+    if (may_cross(line[i - 1], line[i], low, high)) return true;
+  return may_cross(line.back(), {infinity, line.back()[1]}, low, high);
+}
+
+bool outside(const BoxShape& box, const Point3& lower, const Point3& upper) {
+  for (std::size_t a = 0; a < 3; ++a)
+    if (upper[a] < box.lower[a] || lower[a] > box.upper[a]) return true;
+  return false;
+}
+
+/// Whether the surface of a shape may pass through the box [lower, upper]; where it does not, the
+/// box is inside or outside as a whole and need not be sampled.
+bool surface_may_cross(const Shape& shape, const Point3& lower, const Point3& upper) {
+  const auto in_part = [&](const Shape& part) { return surface_may_cross(part, lower, upper); };
+  if (const auto* polygon = std::get_if<PolygonShape>(&shape.form))
+    return may_cross(*polygon, lower, upper);
+  if (const auto* below = std::get_if<BelowShape>(&shape.form))
+    return may_cross(*below, lower, upper);
+  if (const auto* ground = std::get_if<HeightMapShape>(&shape.form)) {
+    const auto [lowest, highest] = ground->map->range(lower, upper);
+    return upper[2] > lowest && lower[2] <= highest;
+  }
+  if (const auto* whole = std::get_if<UnionShape>(&shape.form))
+    return std::any_of(whole->parts.begin(), whole->parts.end(), in_part);
+  if (const auto* whole = std::get_if<DifferenceShape>(&shape.form))
+    return std::any_of(whole->parts.begin(), whole->parts.end(), in_part);
+  const BoxShape around = bounds(shape);
+  const bool box = std::holds_alternative<BoxShape>(shape.form);
+  return !outside(around, lower, upper) && !(box && inside(around, lower) && inside(around, upper));
+}
+
 void grow(BoxShape& box, std::size_t axis, double value) {
   box.lower[axis] = std::min(box.lower[axis], value);
   box.upper[axis] = std::max(box.upper[axis], value);
@@ -194,11 +258,6 @@ double fraction_inside(const Shape& shape, const Point3& lower, const Point3& up
                        int dimension) {
   if (const auto* box = std::get_if<BoxShape>(&shape.form))
     return box_fraction(*box, lower, upper, dimension);
-  if (const auto* ground = std::get_if<HeightMapShape>(&shape.form)) {
-    const auto [lowest, highest] = ground->map->range(lower, upper);
-    if (upper[2] <= lowest) return 1.0;
-    if (lower[2] > highest) return 0.0;
-  }
   if (const auto* stl = std::get_if<StlShape>(&shape.form)) {
     Point3 middle{};
     double reach2 = 0.0;
@@ -208,6 +267,11 @@ double fraction_inside(const Shape& shape, const Point3& lower, const Point3& up
     }
     const double away = stl->mesh->distance_to(middle).distance;
     if (away * away > reach2) return away < 0.0 ? 1.0 : 0.0;
+  }
+  if (!surface_may_cross(shape, lower, upper)) {
+    Point3 middle{};
+    for (std::size_t a = 0; a < 3; ++a) middle[a] = 0.5 * (lower[a] + upper[a]);
+    return shape.contains(middle) ? 1.0 : 0.0;
   }
   return sampled_fraction(shape, lower, upper, is_prism(shape) ? 2 : dimension);
 }

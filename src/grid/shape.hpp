@@ -63,8 +63,8 @@ struct Shape {
 };
 
 /// Share of the box [lower, upper] that lies inside the shape, 0..1: exact for boxes, by regular
-/// sampling (16 points per axis in 2D, 8 in 3D) otherwise; height maps and surfaces of triangles
-/// are sampled only where they may cross the box.
+/// sampling (16 points per axis in 2D, 8 in 3D) otherwise, but only where the shape's surface may
+/// pass through the box.
 double fraction_inside(const Shape& shape, const Point3& lower, const Point3& upper, int dimension);
 
 /// Smallest box around a shape; sides to which the shape has no end are infinite.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "materials/strength_reduction.hpp"
@@ -77,9 +78,10 @@ std::optional<StrengthTrial> run_trial(const CaseOptions& options, double factor
                        statics->at_rest(*world.soil()->options().stop_when_static);
     trial.displacement = world.soil()->largest_displacement();
     trial.stands = rests && trial.displacement <= limit;
-    trial.verdict = trial.stands                 ? "stands"
-                    : trial.displacement > limit ? "moved too far"
-                                                 : "no rest before the end";
+    trial.undecided = !trial.stands && trial.displacement <= limit;
+    trial.verdict = trial.stands      ? "stands"
+                    : trial.undecided ? "no rest before the end"
+                                      : "moved too far";
   } catch (const DivergenceError&) {
     trial.verdict = "diverged";
     trial.displacement = world.soil()->largest_displacement();
@@ -103,6 +105,7 @@ void write(const StrengthReductionResult& result, const StrengthReductionSetting
     json["trials"].push_back({{"factor", trial.factor},
                               {"stands", trial.stands},
                               {"verdict", trial.verdict},
+                              {"undecided", trial.undecided},
                               {"time [s]", trial.time},
                               {"largest displacement [m]", trial.displacement}});
   on_rank_zero(settings.comm, [&] {
@@ -111,6 +114,13 @@ void write(const StrengthReductionResult& result, const StrengthReductionSetting
 }
 
 }  // namespace
+
+const StrengthTrial* StrengthReductionResult::undecided() const {
+  const auto failing = std::find_if(trials.begin(), trials.end(), [&](const StrengthTrial& trial) {
+    return fails && trial.factor == *fails;
+  });
+  return failing != trials.end() && failing->undecided ? &*failing : nullptr;
+}
 
 std::optional<StrengthReductionResult> reduce_strength(
     const CaseOptions& options, const StrengthReductionSettings& settings,

@@ -29,12 +29,17 @@ struct StrengthTrial {
   std::string verdict;        ///< in words
   double time = 0.0;          ///< simulated [s]
   double displacement = 0.0;  ///< largest of all points [m]
+  /// The case's end came before rest and before the soil had moved further than allowed: it counts
+  /// as failing, and a later end might show that it stands.
+  bool undecided = false;
 };
 
 struct StrengthReductionResult {
   std::vector<StrengthTrial> trials;  ///< in the order of their runs
   std::optional<double> stands;       ///< largest factor at which the soil stands
   std::optional<double> fails;        ///< smallest factor at which it does not
+  /// The trial at `fails`, where that is undecided: then the factor is a lower bound.
+  const StrengthTrial* undecided() const;
   /// The factor of safety, middle of the bracket; nothing where that was not found.
   std::optional<double> factor() const {
     if (!stands || !fails) return std::nullopt;

@@ -8,7 +8,7 @@ import h5py
 import numpy as np
 
 from mudlark import drawing, picture, plot, report
-from mudlark.results import Results, ResultsError
+from mudlark.results import FieldState, Points, Results, ResultsError
 
 dimension, folder = int(sys.argv[1]), Path(sys.argv[2])
 results = Results(folder)
@@ -50,6 +50,45 @@ for start in (place, moved):
     width, height = drawing.sides({"position": place, "initial position": start, "volume": np.full(24, 0.01),
                                     "soil": np.zeros(24)})
     assert np.allclose(width, 0.1, rtol=0.01) and np.allclose(height, 0.1, rtol=0.01), (width, height)
+
+# A dam of two soils from x = 2 to 8 m in 3D, in the layer y = 1 to 2 m only, under water that falls from 6 to 2 m: the
+# line of its surface is drawn in the dam and nowhere else, and points beside the drawn layer hide no water.
+class Dam:
+    field_names = ["porosity", "saturation"]
+
+    def field(self, name, time=None):
+        x = np.arange(10) + 0.5
+        values = np.ones((8, 3, 10))
+        if name == "porosity":
+            values[:, :, 2:8] = 0.4
+        else:
+            level = np.interp(x, [2, 8], [6, 2])
+            values = np.clip(level[None, None, :] - np.arange(8)[:, None, None], 0, 1) * np.ones((1, 3, 1))
+        return FieldState(name, "1", 0.0, values, np.zeros(3), np.ones(3), {}, self.y)
+
+
+def lines_and_blue(y):
+    dam = Dam()
+    dam.y = y
+    places = np.array([[x, 1.5, z] for x in np.arange(2.25, 8, 0.5) for z in np.arange(0.25, 8, 0.5)])
+    dam_points = Points(0.0, {"id": np.arange(len(places)), "position": places, "soil": places[:, 0] // 5})
+    figure, axes = plt.subplots()
+    with_line = drawing.draw_surface_in_ground(axes, dam, 0.0, dam_points, "white")
+    line = axes.collections[-1].get_paths()[0].vertices
+    drawing.draw_water(axes, dam, 0.0, dam_points)
+    blue = axes.images[-1].get_array()
+    squares = drawing.draw_points(axes, dam_points, drawing.points_in_cut(dam_points, dam.field("porosity")))
+    colours = {tuple(colour) for colour in squares.get_facecolor()}
+    plt.close(figure)
+    return with_line, line, blue, colours
+
+
+plt = plot.plt
+with_line, line, blue, colours = lines_and_blue(1.5)
+assert with_line and line[:, 0].min() >= 2.0 and line[:, 0].max() <= 8.0
+assert np.abs(line[:, 1] - np.interp(line[:, 0], [2, 8], [6, 2])).max() < 0.5
+assert blue[1, 4] == 0.0 and blue[1, 0] == 1.0 and len(colours) == 2
+assert lines_and_blue(0.5)[2][1, 4] == 1.0
 
 for name in ("fields", "points"):
     root = ElementTree.parse(folder / f"{name}.xdmf").getroot()

@@ -36,6 +36,23 @@ TEST_F(StrengthReduction, JudgesABankUnderWaterByItsWeightThere) {
   EXPECT_EQ(number_after(json, "fails at"), 2.0) << found.output;
 }
 
+/// At F = 1.6 the layer slides; what has not yet slid far when the run ends may as well be on its
+/// way to rest.
+TEST_F(StrengthReduction, WarnsOfATrialThatOnlyRanOutOfTime) {
+  const auto search = [&](const std::string& end) {
+    return program({"strength-reduction", case_file("slide").string(), "--lower", "1.1", "--upper",
+                    "1.6", "--tolerance", "0.6", "-o", "out", "--set", "time.end=" + end});
+  };
+  const Result late = search("4"), early = search("0.5");
+  ASSERT_EQ(late.code, 0) << late.output;
+  EXPECT_EQ(late.output.find("warning"), std::string::npos) << late.output;
+  ASSERT_EQ(early.code, 0) << early.output;
+  EXPECT_NE(early.output.find("warning: at F = 1.6 "), std::string::npos) << early.output;
+  EXPECT_NE(early.output.find("A later end tells"), std::string::npos) << early.output;
+  EXPECT_NE(text_of(results("out") / "strength_reduction.json").find("\"undecided\": true"),
+            std::string::npos);
+}
+
 TEST_F(StrengthReduction, SaysWhenTheFactorLiesElsewhere) {
   const std::string file = case_file("slide").string();
   const Result above =

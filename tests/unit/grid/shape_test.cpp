@@ -58,6 +58,50 @@ TEST(Shape, CircleFractionsSumToItsArea) {
   EXPECT_NEAR(area, std::numbers::pi, 3e-3);
 }
 
+/// Share of a box by 16 samples per axis in the plane, 8 in space, all of them taken.
+double counted(const Shape& shape, const Point3& lower, const Point3& upper, int dimension) {
+  const int samples = dimension == 2 ? 16 : 8, across = dimension == 2 ? 1 : samples;
+  int hits = 0;
+  for (int k = 0; k < samples; ++k)
+    for (int j = 0; j < across; ++j)
+      for (int i = 0; i < samples; ++i) {
+        const Point3 share{(i + 0.5) / samples, dimension == 2 ? 0.0 : (j + 0.5) / samples,
+                           (k + 0.5) / samples};
+        Point3 place{};
+        for (std::size_t a = 0; a < 3; ++a) place[a] = lower[a] + (upper[a] - lower[a]) * share[a];
+        if (shape.contains(place)) ++hits;
+      }
+  return static_cast<double>(hits) / (samples * across * samples);
+}
+
+TEST(Shape, BoxesThatNoSurfaceCrossesHaveTheShareThatCountingSamplesGives) {
+  const Shape big{BoxShape{{-3, -3, -3}, {3, 3, 3}}}, ball{SphereShape{{0.3, 0, 0.2}, 1.4, false}};
+  const Shape notched{PolygonShape{{{-2, -2}, {2, -2}, {2, 1}, {0.1, -1}, {-2, 1.7}}}};
+  const Shape sliver{PolygonShape{{{-1.7, -1.7}, {1.9, 1.8}, {1.9, 1.83}}}};
+  const Shape layer{PolygonShape{{{-2, -1}, {1.3, 0.4}, {-0.4, 2}}, false, -1.03, 0.71}};
+  const Shape below{BelowShape{{{-1, 0.2}, {0, 1.1}, {0.05, -0.9}, {1.5, 0.4}}}};
+  const Shape rod{CylinderShape{{-1, -1, -1}, {1, 1, 1.5}, 0.3}};
+  for (const Shape& shape :
+       {notched, sliver, below, layer, ball, rod, Shape{DifferenceShape{{big, ball, notched}}},
+        Shape{UnionShape{{ball, layer, below}}}})
+    for (int i = -6; i < 6; ++i)
+      for (int j = -6; j < 6; ++j)
+        for (int k = -6; k < 6; ++k) {
+          const Point3 lower{0.5 * i, 0.5 * j, 0.5 * k};
+          const Point3 upper{lower[0] + 0.5, lower[1] + 0.5, lower[2] + 0.5};
+          const bool prism = shape.form.index() == below.form.index() ||
+                             (shape.form.index() == notched.form.index() &&
+                              std::get<PolygonShape>(shape.form).vertical_plane);
+          EXPECT_EQ(fraction_inside(shape, lower, upper, 3),
+                    counted(shape, lower, upper, prism ? 2 : 3))
+              << shape.form.index() << " at " << i << ' ' << j << ' ' << k;
+          if (j == 0) {
+            EXPECT_EQ(fraction_inside(shape, {lower[0], 0, lower[2]}, {upper[0], 0, upper[2]}, 2),
+                      counted(shape, {lower[0], 0, lower[2]}, {upper[0], 0, upper[2]}, 2));
+          }
+        }
+}
+
 TEST(Shape, SphereSeesTheYAxisAndACircleDoesNot) {
   EXPECT_FALSE((Shape{SphereShape{{0, 0, 0}, 1.0, false}}).contains({0, 2, 0}));
   EXPECT_TRUE((Shape{SphereShape{{0, 0, 0}, 1.0, true}}).contains({0, 2, 0}));
