@@ -7,7 +7,7 @@ from matplotlib.colors import LinearSegmentedColormap, Normalize
 WATER = LinearSegmentedColormap.from_list("water", [(0.12, 0.45, 0.78, 0.0), (0.12, 0.45, 0.78, 0.75)])
 GROUND = "#b9a68a"
 SOIL = "#a9793f"
-SOILS = (SOIL, "#6f5a46", "#d0a866", "#8c8a5c", "#b5653f", "#c9bb9b")  # of cases with several, in turn
+SOILS = (SOIL, "#d0a866", "#7a5230", "#9a9a62", "#c9bb9b", "#b5653f")  # of cases with several, in turn
 SOLID = "#6b7178"
 NARROW = 4.0  # domains that are higher or longer than this many times the other way are not drawn to scale
 
