@@ -180,6 +180,8 @@ def save(figure, path, axes=None, used=None):
 
 
 def draw(arguments):
+    if arguments.gauge and (arguments.field or arguments.time is not None):
+        raise ResultsError("--gauge draws whole time series: leave --field and --time out, or draw them in a second call")
     results = Results(arguments.folder, arguments.y)
     plots = results.folder / "plots"
     with plt.rc_context(STYLE):

@@ -27,6 +27,10 @@ struct FaceSystem {
   }
 };
 
+/// Less than this share of the pores goes as this share would, tied to the grains: what next to
+/// nothing would do by itself is round-off, and what nothing does would not be defined.
+constexpr double trace = 1e-6;
+
 /// Shares of a face with which water has mass and drags at grains [-].
 struct WaterOfFace {
   double mass, drag;
@@ -68,6 +72,15 @@ struct SurfaceFaces {
     return water_under_surface(theta, shares[at], solid, part, std::min(reach[at], 1.0));
   }
 };
+
+template <int D>
+void hold_at_walls(const Grid<D>& grid, int axis, FaceVector<D>& grains, FaceVector<D>& water) {
+  for (int side = 0; side < 2; ++side) {
+    if (!grid.touches(axis, side) || grid.wall(axis, side) == Wall::open) continue;
+    zero_wall(grid, axis, side, grains[axis]);
+    zero_wall(grid, axis, side, water[axis]);
+  }
+}
 
 }  // namespace
 
@@ -118,7 +131,6 @@ void GrainsInWater<D>::couple(const FaceVector<D>& capacity, const CellField<D>&
         const double filled = known ? 1.0
                                     : filled_upstream(w[at - s] / room[at - s], w[at] / room[at],
                                                       (v[at] - grain_v[at]) / slow);
-        const double pull = known ? 1.0 : drag_of_part(grains.filling, filled);
         const double resistance = grains.resistance[axis].data()[at];
         const double loose = residual && !known ? free_share[at] : 1.0;
         GrainsOfFace moved{inertia[at], inertia[at] * grain_v[at], force[at]};
@@ -127,9 +139,15 @@ void GrainsInWater<D>::couple(const FaceVector<D>& capacity, const CellField<D>&
           moved.add(std::abs(rim[at]), inertia[other], before[other], force[other]);
         if (residual && open) moved.add(1.0, held[at], grain_v[at], held_weight[at]);
         const WaterOfFace here = surface.water(at, theta[at], grain_m[at]);
-        const FaceSystem face{moved.inertia, open ? loose * filled * here.mass * dt / m[at] : 0.0,
-                              loose * dt * pull * theta[at] * here.drag * resistance};
-        const Pair now = face.solve(moved.momentum + dt * moved.force, face.water_mass * v[at]);
+        const auto system = [&](double part) {
+          const double pull = known ? 1.0 : drag_of_part(grains.filling, part);
+          return FaceSystem{moved.inertia, open ? loose * part * here.mass * dt / m[at] : 0.0,
+                            loose * dt * pull * theta[at] * here.drag * resistance};
+        };
+        const FaceSystem face = system(filled), some = system(std::max(filled, trace));
+        const double momentum = moved.momentum + dt * moved.force;
+        const Pair now{face.solve(momentum, face.water_mass * v[at]).grains,
+                       some.solve(momentum, some.water_mass * v[at]).water};
         const Pair answer =
             face.solve(dt * share * grain_m[at], dt * (rest[at] + here.mass - theta[at]));
         grain_v[at] = now.grains;
@@ -140,11 +158,7 @@ void GrainsInWater<D>::couple(const FaceVector<D>& capacity, const CellField<D>&
       }
       flux_m[at] = rest[at] * m[at] + share * grain_m[at];
     });
-    for (int side = 0; side < 2; ++side) {
-      if (!grid.touches(axis, side) || grid.wall(axis, side) == Wall::open) continue;
-      zero_wall(grid, axis, side, grains.velocity[axis]);
-      zero_wall(grid, axis, side, velocity[axis]);
-    }
+    hold_at_walls(grid, axis, grains.velocity, velocity);
   }
 }
 

@@ -57,7 +57,9 @@ void VelocityExtension<D>::mark(int component, const CellField<D>& unknown,
   const double* theta = porosity.data();
   double* state = state_[component].data();
   const double* below = capacity[D - 1].data();
-  const auto on_body = [&](std::ptrdiff_t cell) { return w[cell] > 0.0 && below[cell] == 0.0; };
+  const auto on_body = [&](std::ptrdiff_t cell) {
+    return w[cell] > dust * theta[cell] && below[cell] == 0.0;
+  };
   const double* open = capacity[component].data();
   for_each_offset(
       *near_, box,

@@ -104,6 +104,7 @@ assert plot.main([str(folder)]) == 0
 assert plot.main([str(folder), "--field", "velocity", "--time", "0.5", "--out", str(folder / "one.png")]) == 0
 assert plot.main([str(folder), "--gauge", "top", "--out", str(folder / "two.png")]) == 0
 assert plot.main([str(folder), "--field", "nonsense"]) == 1
+assert plot.main([str(folder), "--field", "velocity", "--gauge", "top"]) == 1
 assert report.main([str(folder)]) == 0
 page = (folder / "report.html").read_text()
 assert page.count("data:image/png;base64,") >= 3 and "<h2>Gauges</h2>" in page

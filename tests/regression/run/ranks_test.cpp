@@ -57,6 +57,10 @@ TEST_F(Ranks, GiveTheSameBlockThatWaterPushesOnABed) {
   expect_the_same_on_ranks("one_water_free_2d");
 }
 
+TEST_F(Ranks, GiveTheSameSlideIntoAReservoirIn3D) {
+  expect_the_same_on_ranks("one_water_slide_3d");
+}
+
 TEST_F(Ranks, GiveTheSameBlockThatWaterPushesOnAFloor) { expect_the_same_on_ranks("free_2d"); }
 
 TEST_F(Ranks, GiveTheSameThrownBlockOfSoilIn3D) { expect_the_same_on_ranks("soil_3d"); }
