@@ -123,11 +123,13 @@ void read_solid_name(Section& section, const CaseOptions& options, GaugeOptions&
                  "Name the free body that meets it: it gets the opposite force.");
 }
 
-/// of = "NAME" of a boundary that says something of pore water.
+/// of = "NAME" of a boundary that says something of pore water. Where there are mistakes already it
+/// may be what it says that is wrong: the gauge is not blamed for that as well.
 void read_boundary_name(Section& section, const CaseOptions& options, GaugeOptions& gauge) {
   std::vector<Choice<std::string>> choices;
   for (const SoilBoundary& boundary : options.soil->boundaries)
-    if (boundary.for_water) choices.push_back({boundary.name, boundary.name});
+    if (boundary.for_water || !section.reading().report.empty())
+      choices.push_back({boundary.name, boundary.name});
   if (options.flow)
     for (const GroundSideOptions& side : options.flow->ground_sides)
       choices.push_back({side.name, side.name});

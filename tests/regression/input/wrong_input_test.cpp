@@ -61,6 +61,15 @@ TEST_F(WrongInput, EveryWrongCaseFileIsRefusedAtTheRightLineForTheRightReason) {
   EXPECT_GE(count, 60);
 }
 
+TEST_F(WrongInput, AGaugeIsNotBlamedForTheBoundaryThatItMeasures) {
+  const std::string text = text_of(wrong_files / "boundary_pressure_without_value.toml") +
+                           "\n[[gauge]]\nname = \"q\"\nquantity = \"discharge\"\nof = \"";
+  const Result right = program({"check", write("right.toml", text + "b\"\n").string()});
+  expect_refused(right, "boundary.pore_water");
+  EXPECT_EQ(right.output.find("gauge"), std::string::npos) << right.output;
+  expect_refused(program({"check", write("other.toml", text + "c\"\n").string()}), "gauge.of");
+}
+
 TEST_F(WrongInput, EmptyBinaryAndForeignFilesAreRefused) {
   using namespace std::string_literals;
   expect_refused(program({"check", write("empty.toml", "").string()}),
