@@ -23,6 +23,7 @@ UnifiedCoupling<D>::UnifiedCoupling(const Grid<D>& grid, const SoilSolver<D>& so
     : grid_(&grid),
       halo_(grid),
       room_(grid),
+      end_(grid),
       drag_(grid, soil.options()),
       pressure_(grid, "pressure", "Pa"),
       open_(grid, "open", "1"),
@@ -176,7 +177,10 @@ void UnifiedCoupling<D>::load_grains(const FlowSolver<D>& flow, const Space<D>& 
   for (FaceVector<D>* field : {&grains_.share, &grains_.inertia, &grains_.force, &grains_.velocity})
     for (int a = 0; a < D; ++a) fields[number++] = (*field)[a].data();
   halo_.exchange(fields);
-  if (drag_.active()) {
+  if (!drag_.active()) {
+    end_.find(soil, room_);
+    end_.sharpen(flow.velocity(), grains_);
+  } else {
     drag_.find(room_, space, flow.velocity(), grains_);
     resist_at_sides(space);
     std::array<double*, std::size_t{D}> resistance{};

@@ -9,6 +9,7 @@
 ///   4. the flow moves its water, and solves the momentum of water and grains with the pressure
 ///      that makes the flux of the two together free of divergence (flow/moving_grains.hpp);
 ///   5. the grains' velocities wait for the next step (`follow_water`).
+#include "coupling/end_of_ground.hpp"
 #include "coupling/grain_drag.hpp"
 #include "coupling/options.hpp"
 #include "coupling/pressure_extension.hpp"
@@ -88,6 +89,7 @@ class UnifiedCoupling {
   const Grid<D>* grid_;
   Halo<D> halo_;
   SoilInWater<D> room_;
+  EndOfGround<D> end_;
   GrainDrag<D> drag_;
   CellField<D> pressure_;  ///< of the water, continued into bodies and behind closed sides [Pa]
   std::optional<PressureExtension<D>> extension_;  ///< where there are bodies

@@ -170,13 +170,15 @@ void GroundSides<D>::add_inflow(FaceVector<D>& inflow) const {
 }
 
 template <int D>
-void GroundSides<D>::carry_momentum(const FaceVector<D>& velocity) {
+void GroundSides<D>::carry_momentum(const CellField<D>& unknown, const FaceVector<D>& velocity) {
   for (const Side& side : sides_) {
     if (!side.holds_level) continue;
     const int axis = side.options.axis;
-    const std::ptrdiff_t inner = inner_face(side);
+    const std::ptrdiff_t in = inside(side), inner = inner_face(side);
     for_each_face(side, true, [&](std::ptrdiff_t at, const Index<D>&) {
-      if (open_[axis].data()[at] > 0.0)
+      // What presses into a cell without pressure has its motion from the side alone.
+      const bool fills = unknown.data()[at + in] == 0.0 && comes_in(side, at);
+      if (open_[axis].data()[at] > 0.0 && !fills)
         through_[axis].data()[at] = velocity[axis].data()[at + inner];
     });
   }
@@ -235,7 +237,11 @@ void GroundSides<D>::move(const WaterAtSides<D>& at_sides) const {
         m = answer;
         at_sides.flux_mobility[axis].data()[at] = theta * answer;
       } else if (comes) {
-        v += sign * answer * pressure_[axis].data()[at] / gap(side);
+        const double head = pressure_[axis].data()[at];
+        v += sign * answer * head / gap(side);
+        // From rest behind the side, no faster than all of its head makes it.
+        const double fastest = std::sqrt(2.0 * head / density_);
+        if (open_[axis].data()[at] > 0.0) v = std::clamp(v, -fastest, fastest);
       } else if (sign * v > 0.0) {
         v = 0.0;
       }

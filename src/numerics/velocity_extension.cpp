@@ -26,6 +26,14 @@ constexpr double dust = 1e-6;
 /// the surface: what seeps down arrives there.
 constexpr double seeps = 0.1;
 
+/// Is all of a face of an axis in the ground, or all of it outside?
+bool in_ground(const double* drains, std::ptrdiff_t at, std::ptrdiff_t stride) {
+  return drains[at] > 0.0 && drains[at - stride] > 0.0;
+}
+bool outside_ground(const double* drains, std::ptrdiff_t at, std::ptrdiff_t stride) {
+  return drains[at] == 0.0 && drains[at - stride] == 0.0;
+}
+
 /// Does water on its way through half empty pores pass a face of an axis?
 bool passes_ground(const double* water, const double* porosity, const double* drains,
                    std::ptrdiff_t at, std::ptrdiff_t stride) {
@@ -121,11 +129,14 @@ void VelocityExtension<D>::grow_along_normal(int component, const CellField<D>& 
     }
     const double room = theta[at] + theta[at - sc];
     const double held = room > 0.0 ? (w[at] + w[at - sc]) / room : 0.0;
+    // Water over the ground does not move as that in it.
+    const bool over = outside_ground(drains.data(), at, sc);
     double sum = 0.0, weights = 0.0, mean = 0.0, count = 0.0;
     for (int axis = 0; axis < D; ++axis) {
       const std::ptrdiff_t s = grid.stride(axis);
       for (const std::ptrdiff_t other : {at - s, at + s}) {
         if (state[other] <= 0.0 || state[other] > governed) continue;
+        if (over && in_ground(drains.data(), other, sc)) continue;
         const double h = grid.width_at(axis, at);
         const double weight = std::max(state[other] / governed - held, 0.0) / (h * h);
         sum += weight * velocity[other], weights += weight;

@@ -1,0 +1,158 @@
+#include "coupling/end_of_ground.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "numerics/loops.hpp"
+
+namespace mudlark {
+namespace {
+
+/// Ground is within two faces where one of them is filled more than this, its end where one is
+/// filled less [-]; it counts fully 0.3 beyond.
+constexpr double half_full = 0.4;
+/// Faces filled more than this are whole [-].
+constexpr double whole = 0.98;
+/// Water along the end flows when it is faster than this part of a long wave on one cell; what
+/// round-off moves is much slower.
+constexpr double creeps = 1e-4;
+
+/// A face whose control volume the quadratic spline fills to `share` lies so that this part of it
+/// is ground: none from half a cell before the end, all from half a cell behind.
+double part_of_ground(double share) { return std::clamp((share - 0.26) / 0.48, 0.0, 1.0); }
+
+/// The same for water along the end, which finds its way as long as half of the face is open.
+double part_in_the_way(double share) { return std::clamp(4.0 * share - 2.0, 0.0, 1.0); }
+
+}  // namespace
+
+template <int D>
+EndOfGround<D>::EndOfGround(const Grid<D>& grid)
+    : grid_(&grid),
+      halo_(grid),
+      ghosts_(grid),
+      taken_(grid, "share that soil takes", "1"),
+      rim_(grid, "rim of the ground", "1"),
+      towards_(grid, "offset towards the ground", "1"),
+      before_(grid, "grain velocity", "m/s"),
+      slow_(std::max(creeps * std::sqrt(norm(grid.gravity()) * grid.smallest_spacing()), 1e-12)) {}
+
+/// Grains and pores together: with one porosity at the start that is the grains', scaled.
+template <int D>
+void EndOfGround<D>::find(SoilSolver<D>& soil, const SoilInWater<D>& room) {
+  const std::vector<SoilBody>& bodies = soil.options().bodies;
+  const double porosity = bodies.front().porosity;
+  const bool alike =
+      std::ranges::all_of(bodies, [&](const SoilBody& body) { return body.porosity == porosity; });
+  if (alike)
+    taken_.copy_values_from(room.fraction());
+  else
+    soil.spread_over_grains([](const SoilBody&) { return 1.0; }, taken_);
+  ghosts_.update(taken_);
+  for_each(grid_->local(), [&](const Index<D>& cell) {
+    taken_[cell] /= alike ? 1.0 - porosity : room.reach_at(cell);
+  });
+}
+
+/// Share of a face's control volume that soil takes, as the kernel spreads it [-].
+template <int D>
+double EndOfGround<D>::share_at(int axis, const Index<D>& face) const {
+  const std::ptrdiff_t at = grid_->offset(face);
+  return 0.5 * (taken_.data()[at - grid_->stride(axis)] + taken_.data()[at]);
+}
+
+/// 0 to 1: u^2 / (u^2 + u_0^2), u the water's velocity against the grains along the end, across the
+/// slope of the soil's share.
+template <int D>
+double EndOfGround<D>::flows(int axis, const Index<D>& face, const Vec<D>& slope,
+                             const FaceVector<D>& water, const FaceVector<D>& grains) const {
+  Vec<D> slip;
+  for (int a = 0; a < D; ++a) {
+    slip[a] = water[a][face] - grains[a][face];
+    if (a == axis) continue;
+    const Index<D> behind = face.shifted(axis, -1);  // mean of the four faces around
+    for (const Index<D>& at : {face.shifted(a, 1), behind, behind.shifted(a, 1)})
+      slip[a] += water[a][at] - grains[a][at];
+    slip[a] *= 0.25;
+  }
+  const double along = dot(slip, slope), steepness = dot(slope, slope);
+  const double square =
+      std::max(dot(slip, slip) - (steepness > 0.0 ? along * along / steepness : 0.0), 0.0);
+  return square > 0.0 ? square / (square + slow_ * slow_) : 0.0;
+}
+
+template <int D>
+void EndOfGround<D>::look_at(int axis, const Index<D>& face, const FaceVector<D>& water,
+                             MovingGrains<D>& grains) {
+  double &resistance = grains.resistance[axis][face], &rim = rim_[axis][face];
+  rim = 0.0;
+  const double share = share_at(axis, face);
+  if (share <= 0.0 || share >= whole || resistance <= 0.0) return;
+  double densest = 0.0, emptiest = 1.0, most = 0.0;
+  Vec<D> slope;
+  Index<D> outside = face;
+  for (int a = 0; a < D; ++a) {
+    const double lower = share_at(axis, face.shifted(a, -1));
+    const double upper = share_at(axis, face.shifted(a, 1));
+    const auto [less, more] = std::minmax(
+        {lower, upper, share_at(axis, face.shifted(a, -2)), share_at(axis, face.shifted(a, 2))});
+    densest = std::max(densest, more), emptiest = std::min(emptiest, less);
+    slope[a] = a == axis ? taken_[face] - taken_[face.shifted(axis, -1)] : 0.5 * (upper - lower);
+    if (std::max(lower, upper) <= most) continue;
+    most = std::max(lower, upper);
+    const int side = lower > upper ? -1 : 1;
+    outside = face.shifted(a, -side);
+    towards_[axis][face] = static_cast<double>(side * grid_->stride(a));
+  }
+  double ends = std::clamp((densest - half_full) / 0.3, 0.0, 1.0) *
+                std::clamp((half_full - emptiest) / 0.3, 0.0, 1.0);
+  if (ends == 0.0) return;
+  // Water that the rim still holds back flows as soon as that over it does.
+  ends *= std::max(flows(axis, face, slope, water, grains.velocity),
+                   flows(axis, outside, slope, water, grains.velocity));
+  const double steepness = dot(slope, slope);
+  const double along = steepness > 0.0 ? 1.0 - slope[axis] * slope[axis] / steepness : 0.0;
+  const double across = part_of_ground(share);
+  const double part = across + along * (part_in_the_way(share) - across);
+  resistance *= 1.0 + ends * (part / share - 1.0);
+  rim = ends * std::max(1.0 - across / share, 0.0);
+}
+
+template <int D>
+void EndOfGround<D>::sharpen(const FaceVector<D>& water, MovingGrains<D>& grains) {
+  for (int axis = 0; axis < D; ++axis)
+    for_each(grid_->owned_faces(axis),
+             [&](const Index<D>& face) { look_at(axis, face, water, grains); });
+  std::array<double*, std::size_t{3} * D> fields{};
+  std::size_t number = 0;
+  for (FaceVector<D>* field : {&rim_, &towards_, &grains.resistance})
+    for (int a = 0; a < D; ++a) fields[number++] = (*field)[a].data();
+  halo_.exchange(fields);
+  damp_rim(grains);
+  halo_.exchange(grains.velocity);
+}
+
+template <int D>
+void EndOfGround<D>::damp_rim(MovingGrains<D>& grains) {
+  for (int axis = 0; axis < D; ++axis) {
+    before_[axis].copy_values_from(grains.velocity[axis]);
+    const double *part = rim_[axis].data(), *offset = towards_[axis].data();
+    const double *mass = grains.inertia[axis].data(), *old = before_[axis].data();
+    double* v = grains.velocity[axis].data();
+    for_each_offset(*grid_, grid_->owned_faces(axis).grown(1), [&](std::ptrdiff_t at) {
+      if (part[at] == 0.0) return;
+      const std::ptrdiff_t ground = at + static_cast<std::ptrdiff_t>(offset[at]);
+      if (mass[at] == 0.0 || mass[ground] == 0.0) return;
+      const double lent = 0.5 * part[at] * mass[at] * mass[ground] / (mass[at] + mass[ground]) *
+                          (old[ground] - old[at]);
+      v[at] += lent / mass[at];
+      v[ground] -= lent / mass[ground];
+    });
+  }
+}
+
+template class EndOfGround<2>;
+template class EndOfGround<3>;
+
+}  // namespace mudlark
