@@ -155,9 +155,9 @@ TEST(OneWaterLevels, WaterAndBedFollowASlowTide) {
   EXPECT_LT(seiche, 0.25 * h);
 }
 
-/// When the level falls below the bed the water over it runs off. What stays: the row of cells at
-/// the rim of ground that lets next to nothing through, whose few grains hold it, and half a row
-/// over it, which has no pressure.
+/// When the level falls below the bed the water over it runs off, though the ground lets next to
+/// nothing through. What stays is half a row of cells, which has no pressure, and more of it far
+/// from the side.
 TEST(OneWaterLevels, WaterOverABedRunsOffToALevelBelowIt) {
   const double h = 0.05, top = 6 * h, k = 1e-6;
   CaseOptions c = soil_box(12, 12, h, box(-9, -9, 9, top), 9 * h, k);
@@ -166,9 +166,9 @@ TEST(OneWaterLevels, WaterOverABedRunsOffToALevelBelowIt) {
   World<2> world(c, MPI_COMM_WORLD);
   world.initialise();
   run_until(world, 5.0);
-  for (const double x : {0.5 * h, 11.5 * h})
-    EXPECT_LT(read(world, GaugeQuantity::water_level, x, 0.0), top + 1.5 * h);
-  EXPECT_GT(world.flow()->ledger().outflow, 0.5 * 12 * h * 3 * h);
+  EXPECT_LT(read(world, GaugeQuantity::water_level, 0.5 * h, 0.0), top + h);
+  EXPECT_LT(read(world, GaugeQuantity::water_level, 11.5 * h, 0.0), top + 1.5 * h);
+  EXPECT_GT(world.flow()->ledger().outflow, 0.7 * 12 * h * 3 * h);
   expect_conservation(world);
 }
 
