@@ -17,9 +17,12 @@ constexpr double whole = 0.98;
 /// Water along the end flows when it is faster than this part of a long wave on one cell; what
 /// round-off moves is much slower.
 constexpr double creeps = 1e-4;
+/// Cells that are less full than this are all but dry [-].
+constexpr double moist = 0.01;
 
-/// A face whose control volume the quadratic spline fills to `share` lies so that this part of it
-/// is ground: none from half a cell before the end, all from half a cell behind.
+/// A face whose control volume the quadratic spline of the default kernel fills to `share` lies so
+/// that this part of it is ground: none from half a cell before the end, all from half a cell
+/// behind.
 double part_of_ground(double share) { return std::clamp((share - 0.26) / 0.48, 0.0, 1.0); }
 
 /// The same for water along the end, which finds its way as long as half of the face is open.
@@ -38,9 +41,10 @@ EndOfGround<D>::EndOfGround(const Grid<D>& grid)
       before_(grid, "grain velocity", "m/s"),
       slow_(std::max(creeps * std::sqrt(norm(grid.gravity()) * grid.smallest_spacing()), 1e-12)) {}
 
-/// Grains and pores together: with one porosity at the start that is the grains', scaled.
+/// Grains and pores together: with one porosity at the start that is the grains', scaled. Ground
+/// does not end at a body in it.
 template <int D>
-void EndOfGround<D>::find(SoilSolver<D>& soil, const SoilInWater<D>& room) {
+void EndOfGround<D>::find(SoilSolver<D>& soil, const SoilInWater<D>& room, const Space<D>& space) {
   const std::vector<SoilBody>& bodies = soil.options().bodies;
   const double porosity = bodies.front().porosity;
   const bool alike =
@@ -52,6 +56,7 @@ void EndOfGround<D>::find(SoilSolver<D>& soil, const SoilInWater<D>& room) {
   ghosts_.update(taken_);
   for_each(grid_->local(), [&](const Index<D>& cell) {
     taken_[cell] /= alike ? 1.0 - porosity : room.reach_at(cell);
+    if (space.volume[cell] == 0.0) taken_[cell] = 1.0;
   });
 }
 
@@ -62,29 +67,44 @@ double EndOfGround<D>::share_at(int axis, const Index<D>& face) const {
   return 0.5 * (taken_.data()[at - grid_->stride(axis)] + taken_.data()[at]);
 }
 
+/// Mean around a face: of the velocity along its axis there and of the others on the four faces of
+/// theirs around; each counts with its `weight`, if there is one.
+template <int D>
+Vec<D> velocity_at(int axis, const Index<D>& face, const FaceVector<D>& velocity,
+                   const FaceVector<D>* weight) {
+  Vec<D> mean{};
+  const Index<D> behind = face.shifted(axis, -1);
+  for (int a = 0; a < D; ++a) {
+    double sum = 0.0, weights = 0.0;
+    const auto add = [&](const Index<D>& at) {
+      const double w = weight ? (*weight)[a][at] : 1.0;
+      sum += w * velocity[a][at], weights += w;
+    };
+    add(face);
+    if (a != axis) add(face.shifted(a, 1)), add(behind), add(behind.shifted(a, 1));
+    mean[a] = weights > 0.0 ? sum / weights : 0.0;
+  }
+  return mean;
+}
+
 /// 0 to 1: u^2 / (u^2 + u_0^2), u the water's velocity against the grains along the end, across the
-/// slope of the soil's share.
+/// slope of the soil's share; nothing where there is no water.
 template <int D>
 double EndOfGround<D>::flows(int axis, const Index<D>& face, const Vec<D>& slope,
-                             const FaceVector<D>& water, const FaceVector<D>& grains) const {
-  Vec<D> slip;
-  for (int a = 0; a < D; ++a) {
-    slip[a] = water[a][face] - grains[a][face];
-    if (a == axis) continue;
-    const Index<D> behind = face.shifted(axis, -1);  // mean of the four faces around
-    for (const Index<D>& at : {face.shifted(a, 1), behind, behind.shifted(a, 1)})
-      slip[a] += water[a][at] - grains[a][at];
-    slip[a] *= 0.25;
-  }
+                             const Vec<D>& grain_velocity, const FaceVector<D>& water,
+                             const CellField<D>& saturation) const {
+  const Vec<D> slip = velocity_at<D>(axis, face, water, nullptr) - grain_velocity;
   const double along = dot(slip, slope), steepness = dot(slope, slope);
   const double square =
       std::max(dot(slip, slip) - (steepness > 0.0 ? along * along / steepness : 0.0), 0.0);
-  return square > 0.0 ? square / (square + slow_ * slow_) : 0.0;
+  const double filled = std::max(saturation[face], saturation[face.shifted(axis, -1)]);
+  const double wet = std::clamp(filled / moist, 0.0, 1.0);
+  return square > 0.0 ? wet * square / (square + slow_ * slow_) : 0.0;
 }
 
 template <int D>
 void EndOfGround<D>::look_at(int axis, const Index<D>& face, const FaceVector<D>& water,
-                             MovingGrains<D>& grains) {
+                             const CellField<D>& saturation, MovingGrains<D>& grains) {
   double &resistance = grains.resistance[axis][face], &rim = rim_[axis][face];
   rim = 0.0;
   const double share = share_at(axis, face);
@@ -98,21 +118,24 @@ void EndOfGround<D>::look_at(int axis, const Index<D>& face, const FaceVector<D>
     const auto [less, more] = std::minmax(
         {lower, upper, share_at(axis, face.shifted(a, -2)), share_at(axis, face.shifted(a, 2))});
     densest = std::max(densest, more), emptiest = std::min(emptiest, less);
-    slope[a] = a == axis ? taken_[face] - taken_[face.shifted(axis, -1)] : 0.5 * (upper - lower);
+    const double step =
+        a == axis ? taken_[face] - taken_[face.shifted(axis, -1)] : 0.5 * (upper - lower);
+    slope[a] = step / grid_->spacing()[a];
     if (std::max(lower, upper) <= most) continue;
     most = std::max(lower, upper);
     const int side = lower > upper ? -1 : 1;
     outside = face.shifted(a, -side);
-    towards_[axis][face] = static_cast<double>(side * grid_->stride(a));
+    towards_[axis][face] = side * (a + 1);
   }
   double ends = std::clamp((densest - half_full) / 0.3, 0.0, 1.0) *
                 std::clamp((half_full - emptiest) / 0.3, 0.0, 1.0);
   if (ends == 0.0) return;
   // Water that the rim still holds back flows as soon as that over it does.
-  ends *= std::max(flows(axis, face, slope, water, grains.velocity),
-                   flows(axis, outside, slope, water, grains.velocity));
-  const double steepness = dot(slope, slope);
-  const double along = steepness > 0.0 ? 1.0 - slope[axis] * slope[axis] / steepness : 0.0;
+  const Vec<D> with = velocity_at<D>(axis, face, grains.velocity, &grains.share);
+  ends *= std::max(flows(axis, face, slope, with, water, saturation),
+                   flows(axis, outside, slope, with, water, saturation));
+  const double steepness = dot(slope, slope), own = slope[axis] * slope[axis];
+  const double along = steepness > 0.0 ? 1.0 - own / steepness : 0.0;
   const double across = part_of_ground(share);
   const double part = across + along * (part_in_the_way(share) - across);
   resistance *= 1.0 + ends * (part / share - 1.0);
@@ -120,10 +143,11 @@ void EndOfGround<D>::look_at(int axis, const Index<D>& face, const FaceVector<D>
 }
 
 template <int D>
-void EndOfGround<D>::sharpen(const FaceVector<D>& water, MovingGrains<D>& grains) {
+void EndOfGround<D>::sharpen(const FaceVector<D>& water, const CellField<D>& saturation,
+                             MovingGrains<D>& grains) {
   for (int axis = 0; axis < D; ++axis)
     for_each(grid_->owned_faces(axis),
-             [&](const Index<D>& face) { look_at(axis, face, water, grains); });
+             [&](const Index<D>& face) { look_at(axis, face, water, saturation, grains); });
   std::array<double*, std::size_t{3} * D> fields{};
   std::size_t number = 0;
   for (FaceVector<D>* field : {&rim_, &towards_, &grains.resistance})
@@ -137,12 +161,13 @@ template <int D>
 void EndOfGround<D>::damp_rim(MovingGrains<D>& grains) {
   for (int axis = 0; axis < D; ++axis) {
     before_[axis].copy_values_from(grains.velocity[axis]);
-    const double *part = rim_[axis].data(), *offset = towards_[axis].data();
+    const double *part = rim_[axis].data(), *direction = towards_[axis].data();
     const double *mass = grains.inertia[axis].data(), *old = before_[axis].data();
     double* v = grains.velocity[axis].data();
     for_each_offset(*grid_, grid_->owned_faces(axis).grown(1), [&](std::ptrdiff_t at) {
       if (part[at] == 0.0) return;
-      const std::ptrdiff_t ground = at + static_cast<std::ptrdiff_t>(offset[at]);
+      const std::ptrdiff_t s = grid_->stride(static_cast<int>(std::abs(direction[at])) - 1);
+      const std::ptrdiff_t ground = direction[at] > 0.0 ? at + s : at - s;
       if (mass[at] == 0.0 || mass[ground] == 0.0) return;
       const double lent = 0.5 * part[at] * mass[at] * mass[ground] / (mass[at] + mass[ground]) *
                           (old[ground] - old[at]);

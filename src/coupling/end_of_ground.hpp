@@ -18,19 +18,20 @@ class EndOfGround {
   explicit EndOfGround(const Grid<D>& grid);
 
   /// Share that soil takes of the cells, after room.find(). Collective.
-  void find(SoilSolver<D>& soil, const SoilInWater<D>& room);
+  void find(SoilSolver<D>& soil, const SoilInWater<D>& room, const Space<D>& space);
 
   /// Makes `grains.resistance`, as the kernel spreads it, end sharply, for `water` of that
-  /// velocity [m/s]. No water resists the motion of the rim then, the grains spread beyond the end,
-  /// which would ring: it takes on half of what its velocity differs from the ground's. Momentum is
-  /// kept. All with ghosts. Collective.
-  void sharpen(const FaceVector<D>& water, MovingGrains<D>& grains);
+  /// velocity [m/s] in cells of that saturation. No water resists the motion of the rim then, the
+  /// grains spread beyond the end, which would ring: it takes on half of what its velocity differs
+  /// from the ground's. Momentum is kept. All with ghosts. Collective.
+  void sharpen(const FaceVector<D>& water, const CellField<D>& saturation, MovingGrains<D>& grains);
 
  private:
   double share_at(int axis, const Index<D>& face) const;
-  double flows(int axis, const Index<D>& face, const Vec<D>& slope, const FaceVector<D>& water,
-               const FaceVector<D>& grains) const;
-  void look_at(int axis, const Index<D>& face, const FaceVector<D>& water, MovingGrains<D>& grains);
+  double flows(int axis, const Index<D>& face, const Vec<D>& slope, const Vec<D>& grain_velocity,
+               const FaceVector<D>& water, const CellField<D>& saturation) const;
+  void look_at(int axis, const Index<D>& face, const FaceVector<D>& water,
+               const CellField<D>& saturation, MovingGrains<D>& grains);
   void damp_rim(MovingGrains<D>& grains);
 
   const Grid<D>* grid_;
@@ -38,7 +39,7 @@ class EndOfGround {
   Ghosts<D> ghosts_;
   CellField<D> taken_;     ///< share of a cell that soil takes, grains and pores [-]
   FaceVector<D> rim_;      ///< part of the grains of a face that lie beyond the end [-]
-  FaceVector<D> towards_;  ///< offset of the face towards the ground
+  FaceVector<D> towards_;  ///< direction of the ground, +-(axis + 1)
   FaceVector<D> before_;   ///< the grains' velocity [m/s]
   double slow_;            ///< water along the end is at rest [m/s]
 };

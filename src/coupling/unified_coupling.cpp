@@ -177,10 +177,7 @@ void UnifiedCoupling<D>::load_grains(const FlowSolver<D>& flow, const Space<D>& 
   for (FaceVector<D>* field : {&grains_.share, &grains_.inertia, &grains_.force, &grains_.velocity})
     for (int a = 0; a < D; ++a) fields[number++] = (*field)[a].data();
   halo_.exchange(fields);
-  if (!drag_.active()) {
-    end_.find(soil, room_);
-    end_.sharpen(flow.velocity(), grains_);
-  } else {
+  if (drag_.active()) {
     drag_.find(room_, space, flow.velocity(), grains_);
     resist_at_sides(space);
     std::array<double*, std::size_t{D}> resistance{};
@@ -189,6 +186,14 @@ void UnifiedCoupling<D>::load_grains(const FlowSolver<D>& flow, const Space<D>& 
     halo_.exchange(resistance);
   }
   last_step_ = dt;
+}
+
+template <int D>
+void UnifiedCoupling<D>::end_ground(const FlowSolver<D>& flow, const Space<D>& space,
+                                    SoilSolver<D>& soil) {
+  if (drag_.active()) return;
+  end_.find(soil, room_, space);
+  end_.sharpen(flow.velocity(), flow.saturation(), grains_);
 }
 
 /// On the part of a face that lies in a body grains share no flux with the water, only its

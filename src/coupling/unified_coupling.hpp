@@ -40,6 +40,8 @@ class UnifiedCoupling {
   void move_grains(SoilSolver<D>& soil, double dt);
   void load_grains(const FlowSolver<D>& flow, const Space<D>& space, SoilSolver<D>& soil,
                    double dt);
+  /// Drag of what load_grains() found ends where the ground does (coupling/end_of_ground.hpp).
+  void end_ground(const FlowSolver<D>& flow, const Space<D>& space, SoilSolver<D>& soil);
   void follow_water(const FlowSolver<D>& flow, SoilSolver<D>& soil, double dt);
 
   /// What follows from a state just loaded. Collective.

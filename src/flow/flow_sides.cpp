@@ -222,8 +222,9 @@ void FlowSides<D>::push(const FaceVector<D>& mobility, const CellField<D>& unkno
     for_each_face(side, [&](std::ptrdiff_t at, const Index<D>& face) {
       if (unknown.data()[at + inside] == 0.0) return;
       const double gap = 0.5 * grid_->gap(axis, face[axis]);  // as the projection has it
-      velocity[axis].data()[at] +=
-          sign * mobility[axis].data()[at] * pressure_[axis].data()[at] / gap;
+      double& v = velocity[axis].data()[at];
+      const double pressure = pressure_[axis].data()[at] - lost_to_inflow(density_, sign * v);
+      v += sign * mobility[axis].data()[at] * pressure / gap;
     });
   }
 }

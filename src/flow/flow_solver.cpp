@@ -300,7 +300,7 @@ void FlowSolver<D>::move_momentum(double dt) {
     gas_->move_momentum(water_, porosity_, flux_, carried_, dt, momentum_, velocity_);
   else
     momentum_.advance(Inertia::water, {&old_water_, &water_, &porosity_, &carried_}, velocity_);
-  if (ground_sides_) ground_sides_->carry_momentum(projection_.unknown(), velocity_);
+  if (ground_sides_) ground_sides_->carry_momentum(water_, porosity_, velocity_);
   if (turbulence_)
     turbulence_->move(gas_ ? gas_->mass() : water_, gas_ ? gas_->mass_flux() : carried_);
 }

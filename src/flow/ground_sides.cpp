@@ -5,6 +5,7 @@
 
 #include "flow/flow_checks.hpp"
 #include "flow/partly_filled.hpp"
+#include "numerics/interface_advection.hpp"
 #include "numerics/loops.hpp"
 
 namespace mudlark {
@@ -170,16 +171,20 @@ void GroundSides<D>::add_inflow(FaceVector<D>& inflow) const {
 }
 
 template <int D>
-void GroundSides<D>::carry_momentum(const CellField<D>& unknown, const FaceVector<D>& velocity) {
+void GroundSides<D>::carry_momentum(const CellField<D>& water, const CellField<D>& porosity,
+                                    const FaceVector<D>& velocity) {
   for (const Side& side : sides_) {
     if (!side.holds_level) continue;
     const int axis = side.options.axis;
     const std::ptrdiff_t in = inside(side), inner = inner_face(side);
     for_each_face(side, true, [&](std::ptrdiff_t at, const Index<D>&) {
-      // What presses into a cell without pressure has its motion from the side alone.
-      const bool fills = unknown.data()[at + in] == 0.0 && comes_in(side, at);
-      if (open_[axis].data()[at] > 0.0 && !fills)
-        through_[axis].data()[at] = velocity[axis].data()[at + inner];
+      if (open_[axis].data()[at] == 0.0) return;
+      double& v = through_[axis].data()[at];
+      const double sign = side.options.inwards(), behind = velocity[axis].data()[at + inner];
+      // What presses into a cell without pressure has its motion from the side.
+      const bool fills = comes_in(side, at) && !InterfaceAdvection<D>::dilates(
+                                                   water.data()[at + in], porosity.data()[at + in]);
+      v = fills ? sign * std::max(sign * v, sign * behind) : behind;
     });
   }
 }
@@ -238,10 +243,10 @@ void GroundSides<D>::move(const WaterAtSides<D>& at_sides) const {
         at_sides.flux_mobility[axis].data()[at] = theta * answer;
       } else if (comes) {
         const double head = pressure_[axis].data()[at];
-        v += sign * answer * head / gap(side);
-        // From rest behind the side, no faster than all of its head makes it.
-        const double fastest = std::sqrt(2.0 * head / density_);
-        if (open_[axis].data()[at] > 0.0) v = std::clamp(v, -fastest, fastest);
+        // From rest behind the side, it gains speed up to what all of its head makes.
+        const double gains = v + sign * answer * head / gap(side);
+        const double fastest = std::max(std::sqrt(2.0 * head / density_), sign * v);
+        v = open_[axis].data()[at] > 0.0 ? sign * std::min(sign * gains, fastest) : gains;
       } else if (sign * v > 0.0) {
         v = 0.0;
       }
@@ -268,7 +273,10 @@ void GroundSides<D>::push(const FaceVector<D>& mobility, const CellField<D>& unk
     const double per_gap = side.options.inwards() / gap(side);
     for_each_face(side, true, [&](std::ptrdiff_t at, const Index<D>&) {
       if (unknown.data()[at + in] == 0.0 || passes_[axis].data()[at] == 0.0) return;
-      velocity[axis].data()[at] += mobility[axis].data()[at] * pressure_[axis].data()[at] * per_gap;
+      double& v = velocity[axis].data()[at];
+      const bool open = open_[axis].data()[at] > 0.0;
+      const double lost = open ? lost_to_inflow(density_, side.options.inwards() * v) : 0.0;
+      v += mobility[axis].data()[at] * (pressure_[axis].data()[at] - lost) * per_gap;
     });
   }
 }

@@ -68,8 +68,10 @@ class GroundSides {
 
   /// The water's answer to pressure alone, before grains hold it [m2 s/kg].
   void note_mobility(const FaceVector<D>& mobility) { alone_.copy_values_from(mobility); }
-  /// After the transport: momentum of open water goes on through the side.
-  void carry_momentum(const CellField<D>& unknown, const FaceVector<D>& velocity);
+  /// After the transport: momentum of open water goes on through the side. `water` in `porosity` as
+  /// it has just moved.
+  void carry_momentum(const CellField<D>& water, const CellField<D>& porosity,
+                      const FaceVector<D>& velocity);
   /// Momentum of the water on faces whose grains are held, drag implicit, pressure apart.
   void move(const WaterAtSides<D>& at_sides) const;
   /// Gravity, for the pressure of water at rest.

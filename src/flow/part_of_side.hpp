@@ -56,4 +56,12 @@ double share_below(const Grid<D>& grid, const Index<D>& face, double level) {
   return std::clamp((level - foot) / grid.width(D - 1, face[D - 1]), 0.0, 1.0);
 }
 
+/// Pressure [Pa] that water at rest behind a side has turned into motion where it comes in with a
+/// velocity [m/s] (Bernoulli). Without it what swings before the side gains energy with each swing:
+/// water goes out with its own and would come in with more than that of the level.
+inline double lost_to_inflow(double density, double inwards) {
+  const double velocity = std::max(inwards, 0.0);
+  return 0.5 * density * velocity * velocity;
+}
+
 }  // namespace mudlark

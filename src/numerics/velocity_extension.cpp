@@ -26,7 +26,8 @@ constexpr double dust = 1e-6;
 /// the surface: what seeps down arrives there.
 constexpr double seeps = 0.1;
 
-/// Is all of a face of an axis in the ground, or all of it outside?
+/// Is all of a face of an axis in the ground, or all of it outside? Asked of a neighbour of a face
+/// outside, the first looks at the cell that they share first: the other may lie beyond the arrays.
 bool in_ground(const double* drains, std::ptrdiff_t at, std::ptrdiff_t stride) {
   return drains[at] > 0.0 && drains[at - stride] > 0.0;
 }
@@ -166,17 +167,22 @@ void VelocityExtension<D>::let_fly(int component) {
 /// Farther faces still without a value take the mean of the neighbours that had one before this
 /// layer.
 template <int D>
-void VelocityExtension<D>::grow_layer(int component, int layer, double* velocity) {
+void VelocityExtension<D>::grow_layer(int component, int layer, const double* drains,
+                                      double* velocity) {
   const Grid<D>& grid = *grid_;
   double* state = state_[component].data();
+  const std::ptrdiff_t sc = grid.stride(component);
   const double mine = static_cast<double>(layer);
   std::erase_if(waiting_, [&](std::ptrdiff_t at) {
+    const bool over = outside_ground(drains, at, sc);
     double sum = 0.0, count = 0.0;
     for (int axis = 0; axis < D; ++axis) {
       const std::ptrdiff_t s = grid.stride(axis);
-      for (const std::ptrdiff_t other : {at - s, at + s})
-        if (state[other] > 0.0 && (state[other] < mine || state[other] == flying))
-          sum += velocity[other], count += 1.0;
+      for (const std::ptrdiff_t other : {at - s, at + s}) {
+        if (state[other] <= 0.0 || (state[other] >= mine && state[other] != flying)) continue;
+        if (over && in_ground(drains, other, sc)) continue;
+        sum += velocity[other], count += 1.0;
+      }
     }
     if (count == 0.0) return false;
     velocity[at] = sum / count;
@@ -198,7 +204,8 @@ void VelocityExtension<D>::extend(const CellField<D>& unknown, const CellField<D
     flies_[static_cast<std::size_t>(component)].clear();
     grow_along_normal(component, water, porosity, drains, v);
     let_fly(component);
-    for (int layer = 2; layer <= ghost_layers; ++layer) grow_layer(component, layer, v);
+    for (int layer = 2; layer <= ghost_layers; ++layer)
+      grow_layer(component, layer, drains.data(), v);
     for (const std::ptrdiff_t at : waiting_) v[at] = 0.0;
   }
   ghosts_.update_velocity(velocity, *near_);

@@ -18,7 +18,9 @@ class VelocityExtension {
   /// what they have; those without water take the mean of their neighbours in two more layers, and
   /// zero beyond. Afterwards water that flies freely is kept from being squeezed: a cell without
   /// pressure may open but not close (a thin film on the floor would otherwise fall for ever).
-  /// In cells of `drains` it may: drag holds it, and they fill until they have a pressure.
+  /// In cells of `drains` it may: drag holds it, and they fill until they have a pressure. Faces
+  /// outside of those take nothing from faces between two of them: water over the ground does not
+  /// move as that in it.
   /// Faces without `capacity` are closed like walls; films on bodies do not fly: they go with the
   /// water that reaches them within three cells, or lie still. All inputs and the result have valid
   /// ghosts.
@@ -32,7 +34,7 @@ class VelocityExtension {
   void grow_along_normal(int component, const CellField<D>& water, const CellField<D>& porosity,
                          const CellField<D>& drains, double* velocity);
   void let_fly(int component);
-  void grow_layer(int component, int layer, double* velocity);
+  void grow_layer(int component, int layer, const double* drains, double* velocity);
   void keep_from_closing(const CellField<D>& unknown, const CellField<D>& water,
                          const CellField<D>& porosity, const CellField<D>& drains,
                          FaceVector<D>& velocity);

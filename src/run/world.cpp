@@ -238,6 +238,7 @@ void World<D>::advance_together(double dt) {
   {
     const Stopwatch watch(effort_.soil);
     unified_->load_grains(*flow_, medium_.space, *soil_, dt);
+    unified_->end_ground(*flow_, medium_.space, *soil_);
   }
   const Stopwatch watch(effort_.flow);
   flow_->advance(medium_, dt, &unified_->grains());
