@@ -109,7 +109,7 @@ void EndOfGround<D>::look_at(int axis, const Index<D>& face, const FaceVector<D>
   rim = 0.0;
   const double share = share_at(axis, face);
   if (share <= 0.0 || share >= whole || resistance <= 0.0) return;
-  double densest = 0.0, emptiest = 1.0, most = 0.0;
+  double densest = share, emptiest = share, most = share;
   Vec<D> slope;
   Index<D> outside = face;
   for (int a = 0; a < D; ++a) {
@@ -129,17 +129,18 @@ void EndOfGround<D>::look_at(int axis, const Index<D>& face, const FaceVector<D>
   }
   double ends = std::clamp((densest - half_full) / 0.3, 0.0, 1.0) *
                 std::clamp((half_full - emptiest) / 0.3, 0.0, 1.0);
-  if (ends == 0.0) return;
+  const double steepness = dot(slope, slope);
+  if (ends == 0.0 || steepness == 0.0) return;
+  ends *= slope[D - 1] * slope[D - 1] / steepness;  // at upright faces nothing runs
   // Water that the rim still holds back flows as soon as that over it does.
   const Vec<D> with = velocity_at<D>(axis, face, grains.velocity, &grains.share);
   ends *= std::max(flows(axis, face, slope, with, water, saturation),
                    flows(axis, outside, slope, with, water, saturation));
-  const double steepness = dot(slope, slope), own = slope[axis] * slope[axis];
-  const double along = steepness > 0.0 ? 1.0 - own / steepness : 0.0;
+  const double along = 1.0 - slope[axis] * slope[axis] / steepness;
   const double across = part_of_ground(share);
   const double part = across + along * (part_in_the_way(share) - across);
   resistance *= 1.0 + ends * (part / share - 1.0);
-  rim = ends * std::max(1.0 - across / share, 0.0);
+  rim = most > share ? ends * std::max(1.0 - across / share, 0.0) : 0.0;
 }
 
 template <int D>
