@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "coupling/around_face.hpp"
 #include "numerics/loops.hpp"
 
 namespace mudlark {
@@ -37,8 +38,7 @@ EndOfGround<D>::EndOfGround(const Grid<D>& grid)
       ghosts_(grid),
       taken_(grid, "share that soil takes", "1"),
       rim_(grid, "rim of the ground", "1"),
-      towards_(grid, "offset towards the ground", "1"),
-      before_(grid, "grain velocity", "m/s"),
+      towards_(grid, "direction of the ground", "1"),
       slow_(std::max(creeps * std::sqrt(norm(grid.gravity()) * grid.smallest_spacing()), 1e-12)) {}
 
 /// Grains and pores together: with one porosity at the start that is the grains', scaled. Ground
@@ -67,33 +67,13 @@ double EndOfGround<D>::share_at(int axis, const Index<D>& face) const {
   return 0.5 * (taken_.data()[at - grid_->stride(axis)] + taken_.data()[at]);
 }
 
-/// Mean around a face: of the velocity along its axis there and of the others on the four faces of
-/// theirs around; each counts with its `weight`, if there is one.
-template <int D>
-Vec<D> velocity_at(int axis, const Index<D>& face, const FaceVector<D>& velocity,
-                   const FaceVector<D>* weight) {
-  Vec<D> mean{};
-  const Index<D> behind = face.shifted(axis, -1);
-  for (int a = 0; a < D; ++a) {
-    double sum = 0.0, weights = 0.0;
-    const auto add = [&](const Index<D>& at) {
-      const double w = weight ? (*weight)[a][at] : 1.0;
-      sum += w * velocity[a][at], weights += w;
-    };
-    add(face);
-    if (a != axis) add(face.shifted(a, 1)), add(behind), add(behind.shifted(a, 1));
-    mean[a] = weights > 0.0 ? sum / weights : 0.0;
-  }
-  return mean;
-}
-
 /// 0 to 1: u^2 / (u^2 + u_0^2), u the water's velocity against the grains along the end, across the
 /// slope of the soil's share; nothing where there is no water.
 template <int D>
 double EndOfGround<D>::flows(int axis, const Index<D>& face, const Vec<D>& slope,
                              const Vec<D>& grain_velocity, const FaceVector<D>& water,
                              const CellField<D>& saturation) const {
-  const Vec<D> slip = velocity_at<D>(axis, face, water, nullptr) - grain_velocity;
+  const Vec<D> slip = velocity_around(axis, face, water) - grain_velocity;
   const double along = dot(slip, slope), steepness = dot(slope, slope);
   const double square =
       std::max(dot(slip, slip) - (steepness > 0.0 ? along * along / steepness : 0.0), 0.0);
@@ -133,7 +113,7 @@ void EndOfGround<D>::look_at(int axis, const Index<D>& face, const FaceVector<D>
   if (ends == 0.0 || steepness == 0.0) return;
   ends *= slope[D - 1] * slope[D - 1] / steepness;  // at upright faces nothing runs
   // Water that the rim still holds back flows as soon as that over it does.
-  const Vec<D> with = velocity_at<D>(axis, face, grains.velocity, &grains.share);
+  const Vec<D> with = velocity_around(axis, face, grains.velocity, &grains.share);
   ends *= std::max(flows(axis, face, slope, with, water, saturation),
                    flows(axis, outside, slope, with, water, saturation));
   const double along = 1.0 - slope[axis] * slope[axis] / steepness;
@@ -158,23 +138,28 @@ void EndOfGround<D>::sharpen(const FaceVector<D>& water, const CellField<D>& sat
   halo_.exchange(grains.velocity);
 }
 
+/// All loans are those of the velocities before.
 template <int D>
 void EndOfGround<D>::damp_rim(MovingGrains<D>& grains) {
   for (int axis = 0; axis < D; ++axis) {
-    before_[axis].copy_values_from(grains.velocity[axis]);
     const double *part = rim_[axis].data(), *direction = towards_[axis].data();
-    const double *mass = grains.inertia[axis].data(), *old = before_[axis].data();
+    const double* mass = grains.inertia[axis].data();
     double* v = grains.velocity[axis].data();
+    loans_.clear();
     for_each_offset(*grid_, grid_->owned_faces(axis).grown(1), [&](std::ptrdiff_t at) {
       if (part[at] == 0.0) return;
       const std::ptrdiff_t s = grid_->stride(static_cast<int>(std::abs(direction[at])) - 1);
       const std::ptrdiff_t ground = direction[at] > 0.0 ? at + s : at - s;
-      if (mass[at] == 0.0 || mass[ground] == 0.0) return;
-      const double lent = 0.5 * part[at] * mass[at] * mass[ground] / (mass[at] + mass[ground]) *
-                          (old[ground] - old[at]);
-      v[at] += lent / mass[at];
-      v[ground] -= lent / mass[ground];
+      const double both = mass[at] + mass[ground];
+      if (both > 0.0)
+        loans_.push_back(
+            {at, ground, 0.5 * part[at] * mass[at] * mass[ground] / both * (v[ground] - v[at])});
     });
+    for (const Loan& loan : loans_) {
+      if (loan.momentum == 0.0) continue;
+      v[loan.rim] += loan.momentum / mass[loan.rim];
+      v[loan.ground] -= loan.momentum / mass[loan.ground];
+    }
   }
 }
 

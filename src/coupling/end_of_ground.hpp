@@ -1,6 +1,9 @@
 #pragma once
 /// Where soil ends under or beside open water, which the kernel spreads over two cells on either
 /// side.
+#include <cstddef>
+#include <vector>
+
 #include "coupling/soil_in_water.hpp"
 #include "flow/moving_grains.hpp"
 #include "grid/halo.hpp"
@@ -40,8 +43,13 @@ class EndOfGround {
   CellField<D> taken_;     ///< share of a cell that soil takes, grains and pores [-]
   FaceVector<D> rim_;      ///< part of the grains of a face that lie beyond the end [-]
   FaceVector<D> towards_;  ///< direction of the ground, +-(axis + 1)
-  FaceVector<D> before_;   ///< the grains' velocity [m/s]
-  double slow_;            ///< water along the end is at rest [m/s]
+  /// Momentum per volume [kg/(m2 s)] that the ground gives to a face of the rim.
+  struct Loan {
+    std::ptrdiff_t rim, ground;
+    double momentum;
+  };
+  std::vector<Loan> loans_;  ///< of one axis, kept for its memory
+  double slow_;              ///< water along the end is at rest [m/s]
 };
 
 extern template class EndOfGround<2>;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "coupling/around_face.hpp"
+
 namespace mudlark {
 namespace {
 
@@ -71,21 +73,12 @@ void GrainDrag<D>::find(const SoilInWater<D>& room, const Space<D>& space,
       if (share == 0.0 || open == 0.0) return;
       const double fraction =
           std::clamp(room.fraction_at(axis, face), sparsest, 1.0 - room.least_porosity);
-      double square = 0.0;
-      for (int a = 0; a < D; ++a) {
-        double slip = water[a][face] - grains.velocity[a][face];
-        if (a != axis) {  // mean of the four faces around
-          const Index<D> across = face.shifted(axis, -1);
-          for (const Index<D>& at : {face.shifted(a, 1), across, across.shifted(a, 1)})
-            slip += water[a][at] - grains.velocity[a][at];
-          slip *= 0.25;
-        }
-        square += slip * slip;
-      }
+      const Vec<D> slip =
+          velocity_around(axis, face, water) - velocity_around(axis, face, grains.velocity);
       const DragCoefficients drag = (*law_)(1.0 - fraction);
       grains.resistance[axis][face] =
           share / (fraction * open * open) *
-          (drag.linear + drag.quadratic * (1.0 - fraction) * std::sqrt(square));
+          (drag.linear + drag.quadratic * (1.0 - fraction) * norm(slip));
     });
 }
 

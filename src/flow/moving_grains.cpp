@@ -144,10 +144,13 @@ void GrainsInWater<D>::couple(const FaceVector<D>& capacity, const CellField<D>&
           return FaceSystem{moved.inertia, open ? loose * part * here.mass * dt / m[at] : 0.0,
                             loose * dt * pull * theta[at] * here.drag * resistance};
         };
-        const FaceSystem face = system(filled), some = system(std::max(filled, trace));
+        const FaceSystem face = system(filled);
         const double momentum = moved.momentum + dt * moved.force;
-        const Pair now{face.solve(momentum, face.water_mass * v[at]).grains,
-                       some.solve(momentum, some.water_mass * v[at]).water};
+        Pair now = face.solve(momentum, face.water_mass * v[at]);
+        if (filled < trace) {
+          const FaceSystem some = system(trace);
+          now.water = some.solve(momentum, some.water_mass * v[at]).water;
+        }
         const Pair answer =
             face.solve(dt * share * grain_m[at], dt * (rest[at] + here.mass - theta[at]));
         grain_v[at] = now.grains;
